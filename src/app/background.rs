@@ -305,6 +305,14 @@ pub fn cancelled(aim: Aim, path: &Path) -> String {
     format!("{} {} was cancelled. {left}", aim.doing(), name_of(path))
 }
 
+/// Returns the names of files, one after the other; of many only the first and the last one.
+pub fn listed(files: &[PathBuf]) -> String {
+    match files {
+        [first, .., last] if files.len() > 5 => format!("{} … {}", first.display(), last.display()),
+        _ => files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", "),
+    }
+}
+
 /// Returns a file's name, without its folder.
 pub fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()

@@ -1,16 +1,19 @@
 //! Which tab of the lower dock is shown.
 
-use super::kit::{Tab, Tool};
+use super::kit::Tab;
 
 /// Name under which the window's own storage keeps the tab.
 const TAB_KEY: &str = "tab";
+
+/// A tool by its name, with its tab.
+type ToolOfDock = (&'static str, Option<Tab>);
 
 /// The tab of the lower dock, and why it is shown.
 #[derive(Clone, Copy, Debug)]
 pub struct Dock {
     tab: Tab,
     /// The tool that was selected when the tab was last looked at.
-    tool: Option<Tool>,
+    tool: Option<ToolOfDock>,
     /// Whether a person has chosen the tab since that tool was selected.
     is_chosen: bool,
 }
@@ -37,11 +40,11 @@ impl Dock {
 
     /// Shows the tab of a tool that was selected, unless that tool was selected already and a person has
     /// chosen another tab since then.
-    pub fn follow_tool(&mut self, tool: Tool) {
-        if self.tool.replace(tool) != Some(tool) {
+    pub fn follow_tool(&mut self, name: &'static str, tab: Option<Tab>) {
+        if self.tool.replace((name, tab)) != Some((name, tab)) {
             self.is_chosen = false;
         }
-        if let Some(tab) = tool.tab.filter(|_| !self.is_chosen) {
+        if let Some(tab) = tab.filter(|_| !self.is_chosen) {
             self.tab = tab;
         }
     }
@@ -62,7 +65,7 @@ impl Dock {
     /// Leaves a tab that has nothing to show any more for that of the selected tool.
     pub fn leave(&mut self, tab: Tab) {
         if self.tab == tab {
-            let of_tool = self.tool.and_then(|tool| tool.tab);
+            let of_tool = self.tool.and_then(|(_, tab)| tab);
             (self.tab, self.is_chosen) = (of_tool.unwrap_or(Tab::Size), false);
         }
     }

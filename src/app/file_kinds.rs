@@ -24,6 +24,18 @@ pub fn files_that_open() -> String {
     opened_by_ending().map(kind).collect::<Vec<_>>().join(", ")
 }
 
+/// Returns the kind of a file to open, by the ending of its name.
+///
+/// # Errors
+/// Fails with a sentence when files with that ending cannot be opened.
+pub fn opened_kind(path: &Path) -> Result<FileRequest, String> {
+    let name = path.file_name().unwrap_or_default();
+    match opened_by_ending().find(|kind| kind.takes(name)) {
+        Some(kind) => Ok(kind),
+        None => Err(format!("{} cannot be opened. These files can: {}.", path.display(), files_that_open())),
+    }
+}
+
 /// Any file that can be opened.
 pub static OPEN_ANY: FileKind = FileKind {
     title: "Open",
@@ -31,7 +43,7 @@ pub static OPEN_ANY: FileKind = FileKind {
     endings: || opened_by_ending().flat_map(|kind| (kind.endings)()).collect(),
     contents: "Projects, domains, pictures, grids",
     folder: "projects",
-    ..FileKind::new(|path| Command::File(FileCommand::Open(path)))
+    ..FileKind::new(|path| Command::from(FileCommand::Open(path)))
 };
 
 /// Any file of data, which is asked about once it is read.
@@ -44,7 +56,7 @@ pub static ADD_DATA: FileKind = FileKind {
     },
     contents: "Grids, pictures, shapes and tables",
     folder: "data",
-    ..FileKind::new(|path| Command::File(FileCommand::AddData(path)))
+    ..FileKind::new(|path| Command::from(FileCommand::AddData(path)))
 };
 
 /// A project.
@@ -54,7 +66,7 @@ pub static OPEN_PROJECT: FileKind = FileKind {
     endings: || vec![ENDING],
     contents: "Projects",
     folder: "projects",
-    ..FileKind::new(|path| Command::File(FileCommand::OpenProject(path)))
+    ..FileKind::new(|path| Command::from(FileCommand::OpenProject(path)))
 };
 
 /// A recipe as a new document.
@@ -64,7 +76,7 @@ pub static OPEN_RECIPE: FileKind = FileKind {
     endings: || vec![recipe::ENDING],
     contents: "Recipes",
     folder: "recipes",
-    ..FileKind::new(|path| Command::File(FileCommand::OpenRecipe(path)))
+    ..FileKind::new(|path| Command::from(FileCommand::OpenRecipe(path)))
 };
 
 /// The document as a project.
@@ -74,8 +86,8 @@ pub static SAVE_PROJECT: FileKind = FileKind {
     endings: || vec![ENDING],
     contents: "Projects",
     folder: "projects",
-    command_after_browsing: |path| Command::File(FileCommand::SaveTo(path)),
-    ..FileKind::new(|path| Command::File(FileCommand::SaveAs(path)))
+    command_after_browsing: |path| Command::from(FileCommand::SaveTo(path)),
+    ..FileKind::new(|path| Command::from(FileCommand::SaveAs(path)))
 };
 
 /// The document as a recipe.
@@ -85,7 +97,7 @@ pub static SAVE_RECIPE: FileKind = FileKind {
     endings: || vec![recipe::ENDING],
     contents: "Recipes",
     folder: "recipes",
-    ..FileKind::new(|path| Command::File(FileCommand::SaveRecipeAs(path)))
+    ..FileKind::new(|path| Command::from(FileCommand::SaveRecipeAs(path)))
 };
 
 /// The recorded edits, as a test.
@@ -95,8 +107,8 @@ pub static EXPORT_TEST: FileKind = FileKind {
     endings: || vec![recording::ENDING],
     contents: "Recorded sessions",
     folder: "tests",
-    command_after_browsing: |path| Command::File(FileCommand::ExportTest(path)),
-    ..FileKind::new(|path| Command::File(FileCommand::ExportTestAs(path)))
+    command_after_browsing: |path| Command::from(FileCommand::ExportTest(path)),
+    ..FileKind::new(|path| Command::from(FileCommand::ExportTestAs(path)))
 };
 
 /// The keys that were changed.
@@ -107,8 +119,8 @@ pub static EXPORT_KEYS: FileKind = FileKind {
     contents: "Keys",
     folder: "keys",
     suffix: " keys",
-    command_after_browsing: |path| Command::Shell(ShellCommand::ExportKeys(path)),
-    ..FileKind::new(|path| Command::Shell(ShellCommand::ExportKeysAs(path)))
+    command_after_browsing: |path| Command::from(ShellCommand::ExportKeys(path)),
+    ..FileKind::new(|path| Command::from(ShellCommand::ExportKeysAs(path)))
 };
 
 /// Changed keys, in place of those of the window.
@@ -117,7 +129,7 @@ pub static IMPORT_KEYS: FileKind = FileKind {
     endings: || vec!["json"],
     contents: "Keys",
     folder: "keys",
-    ..FileKind::new(|path| Command::Shell(ShellCommand::ImportKeys(path)))
+    ..FileKind::new(|path| Command::from(ShellCommand::ImportKeys(path)))
 };
 
 /// The mesh.
@@ -128,13 +140,13 @@ pub static EXPORT_MESH: FileKind = FileKind {
     contents: "Meshes and pictures",
     folder: "exports",
     command_after_browsing: |path| {
-        Command::File(match is_one_file(&path) {
+        Command::from(match is_one_file(&path) {
             true => FileCommand::Export(path),
             // The desktop has not asked about the files beside it.
             false => FileCommand::ExportAs(path),
         })
     },
-    ..FileKind::new(|path| Command::File(FileCommand::ExportAs(path)))
+    ..FileKind::new(|path| Command::from(FileCommand::ExportAs(path)))
 };
 
 fn is_one_file(path: &Path) -> bool {

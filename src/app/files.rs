@@ -6,14 +6,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, cancelled, exported};
+use super::background::{Aim, Background, Outcome, cancelled, exported, listed};
 use super::command::{Command, FileCommand, Opened, ShellCommand};
 use super::host::asset;
 use super::kit::Keymap;
 use super::session::Session;
-use super::space::Space;
-use super::view::View;
-use super::widgets::format;
+
+use super::view::{Space, View};
 use meshbrush_core::document::{
     Document, Example, ExampleData, ExampleMaking, Recording, SeaChart, Settings,
 };
@@ -34,6 +33,7 @@ use meshbrush_mesh::mesh::{Extract, Fingerprint, MeshView};
 use meshbrush_mesh::text::{Bytes, Grouped};
 use meshbrush_render::render::export::{ExportFormat, Look, SpaceLook};
 use meshbrush_render::scene::NodeHeights;
+use meshbrush_ui::widgets::format;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
 /// N.
@@ -130,7 +130,7 @@ pub fn open_example_in_slices(background: &mut Background, example: Example) {
     let begin = move || Some(example.making(&Assets));
     let slice = move |making: &mut ExampleMaking| {
         let opened = Opened { document: Arc::new(making.advance()?), home: None };
-        Some(Outcome::PartRead(vec![Command::File(FileCommand::ShowExample(example, opened))]))
+        Some(Outcome::PartRead(vec![Command::from(FileCommand::ShowExample(example, opened))]))
     };
     background.start_in_slices(Aim::Read, Path::new(example.name()), begin, slice);
 }
@@ -141,8 +141,8 @@ pub fn open_recipe(background: &mut Background, path: &Path) {
     background.start(Aim::Read, path, move |meter| match recipe::open(&file, meter) {
         Ok(OpenedRecipe { document, notes }) => {
             let opened = Opened { document: Arc::new(document), home: None };
-            let notes = (!notes.is_empty()).then(|| Command::Shell(ShellCommand::Tell(notes.join(" "))));
-            let commands = [Command::File(FileCommand::Show(opened))].into_iter().chain(notes).collect();
+            let notes = (!notes.is_empty()).then(|| Command::from(ShellCommand::Tell(notes.join(" "))));
+            let commands = [Command::from(FileCommand::Show(opened))].into_iter().chain(notes).collect();
             Outcome::Read { path: file, commands }
         }
         Err(error) => Outcome::not_read(error),
@@ -168,8 +168,8 @@ pub fn import_keys(background: &mut Background, path: &Path) {
         let read = io::read_text(&file, MOST_BYTES_OF_KEYS).map_err(|error| format!("{error}."));
         match read.and_then(|text| Keymap::parse(&text)) {
             Ok(keymap) => Outcome::PartRead(vec![
-                Command::Shell(ShellCommand::SetKeys(keymap)),
-                Command::Shell(ShellCommand::Tell(format!("The keys of {} are in use.", file.display()))),
+                Command::from(ShellCommand::SetKeys(keymap)),
+                Command::from(ShellCommand::Tell(format!("The keys of {} are in use.", file.display()))),
             ]),
             Err(problem) => Outcome::NotRead(format!("{} could not be read. {problem}", file.display())),
         }
@@ -330,12 +330,4 @@ pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) 
         Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
         Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
     });
-}
-
-/// Returns the names of files, one after the other; of many only the first and the last one.
-pub fn listed(files: &[PathBuf]) -> String {
-    match files {
-        [first, .., last] if files.len() > 5 => format!("{} … {}", first.display(), last.display()),
-        _ => files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", "),
-    }
 }

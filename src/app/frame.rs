@@ -13,6 +13,8 @@
 //! where it was in the last frame, and the mesh that it changed is drawn in the same frame.
 
 use crate::app::clock::{Duration, Instant};
+use crate::app::features::report::Report;
+use crate::app::features::stepping::Stepping;
 
 use eframe::egui::{self, Context, Event, Frame, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
@@ -21,16 +23,17 @@ use super::canvas::Toast;
 use super::catalog::catalog;
 use super::command::{Command, ShellCommand};
 use super::dialogs::FileFacts;
-use super::features::{ROWS, stepping};
+use super::features::{LAYER_KINDS, stepping};
 use super::host;
 use super::journal::JournalKeeper;
 use super::keys::{Press, Receiver};
+use super::platform::IS_PAGE;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
 use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
-use crate::app::widgets::{degrees, shown_keys};
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{degrees, shown_keys};
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
@@ -52,7 +55,7 @@ const LONG_BEFORE_MESH: Duration = Duration::from_millis(12);
 
 /// Returns whether a command moves the focus between parts of the window.
 fn is_for_parts(command: &Command) -> bool {
-    matches!(command, Command::Shell(ShellCommand::FocusPart(_)))
+    matches!(command.get(), Some(ShellCommand::FocusPart(_)))
 }
 
 impl App {
@@ -130,7 +133,7 @@ impl App {
         let mut catalog = catalog(&self.state(None));
         if self.help.is_some() {
             // Nothing behind the help receives keys.
-            let escape = Command::Shell(ShellCommand::Escape);
+            let escape = Command::from(ShellCommand::Escape);
             catalog.retain(|item| {
                 item.menu == Menu::Help || item.command == escape || is_for_parts(&item.command)
             });
@@ -178,8 +181,7 @@ impl App {
             if self.reproducible { [NO_LIMIT; 2] } else { [self.mesh_budget(ctx), self.price_budget(ctx)] };
         let jobs = &self.jobs;
         let start = Instant::now();
-        let deadline =
-            if host::IS_PAGE { (began + budget).max(start + LEAST_IN_PAGE) } else { start + budget };
+        let deadline = if IS_PAGE { (began + budget).max(start + LEAST_IN_PAGE) } else { start + budget };
         let cuts = self.session.advance_cuts(jobs);
         let bounds = self.session.document().settings().domain.bounds;
         self.tools.follow_extent(bounds.size().max_element());
@@ -206,7 +208,7 @@ impl App {
     fn mesh_budget(&self, ctx: &Context) -> Duration {
         let draws = ctx.input(|input| input.pointer.any_down());
         let (share, most) = if draws { SLOW_FRAME_SHARE } else { SLOW_FRAME_SHARE_AT_REST };
-        let most = if host::IS_PAGE { most.min(MOST_IN_PAGE) } else { most };
+        let most = if IS_PAGE { most.min(MOST_IN_PAGE) } else { most };
         let frame_time = ctx.input(|input| input.stable_dt);
         Duration::from_secs_f32(share * frame_time.clamp(0.0, 1.0)).clamp(FRAME_BUDGET, most)
     }
@@ -250,7 +252,8 @@ impl App {
         let Some(response) = self.canvas.layout(ui, &mut self.view, self.session.mesh().lattice()) else {
             return;
         };
-        let shows_step = self.features.stepping.steps().is_some_and(|steps| steps.player().is_some());
+        let shows_step =
+            self.features.get::<Stepping>().steps().is_some_and(|steps| steps.player().is_some());
         if !self.starts_with_file && !shows_step {
             self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
         } else {
@@ -259,7 +262,7 @@ impl App {
         let files = self.background.rows(self.project.is_leaving());
         let state = self.state(readout);
         if shows_step {
-            stepping::paint(ui, &response, &state, self.features.report.figure());
+            stepping::paint(ui, &response, &state, self.features.get::<Report>().figure());
         } else {
             self.canvas.draw_marks(ui, &response, &state);
         }
@@ -298,7 +301,7 @@ impl App {
             view: &self.view,
             keymap: &self.keymap,
             features: &self.features,
-            rows: ROWS,
+            layer_kinds: &LAYER_KINDS,
             threads: &self.threads,
             pointer: self.canvas.pointer(),
             readout,

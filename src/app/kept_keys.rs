@@ -59,7 +59,7 @@ mod tests {
         window.state().store_keys(&mut storage);
         assert_eq!(storage.get_string(KEYS_KEY).as_deref(), Some(damaged), "nothing is lost");
         let changed = Keymap::parse(&damaged.replace("Hyper+Q", "F12")).expect("keys");
-        send(&mut window, Command::Shell(ShellCommand::SetKeys(changed.clone())));
+        send(&mut window, Command::from(ShellCommand::SetKeys(changed.clone())));
         window.state().store_keys(&mut storage);
         assert_eq!(storage.get_string(KEYS_KEY), Some(changed.to_text()));
         assert_eq!(storage.get_string(UNREAD_KEY).as_deref(), Some(damaged));

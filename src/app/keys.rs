@@ -3,7 +3,7 @@
 use eframe::egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
 
 use crate::app::kit::CatalogItem;
-use crate::app::widgets::key_menu::MENU_KEYS;
+use meshbrush_ui::widgets::key_menu::MENU_KEYS;
 
 /// The part of the window that a key goes to first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

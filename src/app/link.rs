@@ -6,12 +6,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::App;
-use super::command::{Command, FileCommand, Opened, ShellCommand, SpaceCommand, StepCommand, ViewCommand};
-use super::features::ROWS;
+use super::command::{Command, FileCommand, Opened, ShellCommand, SpaceCommand, ViewCommand};
+use super::features::stepping::StepCommand;
 use super::files::new_document;
-use super::kit::all_tools;
-use super::tools::Tools;
 use super::view::View;
+use crate::app::features::stepping::Stepping;
 use meshbrush_io::io::link::{self, LinkSpace, LinkView, Linked};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_render::scene::{Camera, ViewDirection};
@@ -35,13 +34,17 @@ impl App {
         let tool = self.tools.chosen();
         let view = LinkView {
             area: area.map(|area| [area.min.x, area.min.y, area.max.x, area.max.y]),
-            tool: (tool != Tools::for_domain(1.0, 1.0).tool).then(|| tool.name.to_owned()),
+            tool: (!self.tools.has_first()).then(|| tool.name.to_owned()),
             space: self.view.space.shown().map(|(from, [exaggeration, height])| LinkSpace {
                 direction: [from.azimuth, from.altitude],
                 exaggeration,
                 height,
             }),
-            step: self.features.stepping.steps().map(|steps| steps.player().map_or(0, |p| p.position())),
+            step: self
+                .features
+                .get::<Stepping>()
+                .steps()
+                .map(|steps| steps.player().map_or(0, |p| p.position())),
         };
         link::write(self.session.document(), &view)
     }
@@ -55,28 +58,28 @@ impl App {
         self.starts_with_file = false;
         let bounds = document.settings().lattice().map(|lattice| lattice.bounds());
         let opened = Opened { document: Arc::new(document), home: None };
-        self.send(Command::File(FileCommand::Show(opened)));
+        self.send(Command::from(FileCommand::Show(opened)));
         match view.space {
             Some(LinkSpace { direction: [azimuth, altitude], exaggeration, height }) => {
                 let direction = ViewDirection { azimuth, altitude };
                 let show = SpaceCommand::Show(direction, [exaggeration, height]);
-                self.send(Command::View(ViewCommand::Space(show)));
+                self.send(Command::from(ViewCommand::Space(show)));
             }
             None => self.view.leave_space(),
         }
         if let (Ok(bounds), Some([x0, y0, x1, y1])) = (bounds, view.area) {
             let area = Rect::spanning(DVec2::new(x0, y0), DVec2::new(x1, y1));
-            self.send(Command::View(ViewCommand::ShowAreaOf(bounds, area)));
+            self.send(Command::from(ViewCommand::ShowAreaOf(bounds, area)));
         }
-        let tool = view.tool.and_then(|name| all_tools(ROWS).into_iter().find(|tool| tool.name == name));
+        let tool = view.tool.and_then(|name| self.tools.all().iter().find(|tool| tool.name == name).copied());
         if let Some(tool) = tool {
-            self.send(Command::Shell(ShellCommand::Use(tool)));
+            self.send(Command::from(ShellCommand::Use(tool)));
         }
         if let Some(step) = view.step {
-            self.send(Command::Steps(StepCommand::BeginAt(step)));
+            self.send(Command::from(StepCommand::BeginAt(step)));
         }
         if let Some(problem) = problem {
-            self.send(Command::File(FileCommand::Fail(problem)));
+            self.send(Command::from(FileCommand::Fail(problem)));
         }
     }
 }

@@ -42,6 +42,7 @@ mod next_document;
 mod notices;
 mod panels;
 mod parts;
+mod platform;
 mod presentation;
 mod project;
 
@@ -53,16 +54,13 @@ pub mod session;
 mod size_change;
 mod slices;
 mod software_window;
-mod space;
 #[cfg(test)]
 mod tests;
-pub mod theme;
 mod threads;
 pub mod tools;
 pub mod view;
 #[cfg(target_family = "wasm")]
 mod web;
-pub mod widgets;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -74,18 +72,19 @@ use eframe::egui_wgpu;
 use background::Background;
 use canvas::{Canvas, CanvasGpu};
 use clock::{Duration, Instant};
+use command::HelpTopic;
 use command::{Command, FileCommand};
 #[cfg(not(target_family = "wasm"))]
 use desktop as host;
 use dialogs::Dialogs;
-use features::Features;
+use features::ROWS;
 use frame_log::FrameLog;
-use help::HelpTopic;
 use host::journal;
 pub use host::run;
 use jobs::Jobs;
 use journal::JournalKeeper;
-use kit::Keymap;
+use kit::{Features, Keymap, all_tools};
+use platform::IS_PAGE;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -97,6 +96,7 @@ use web as host;
 
 use meshbrush_core::document::{Document, Example};
 use meshbrush_render::render::gpu::device_descriptor;
+use meshbrush_ui::{theme, widgets};
 
 /// How long a window that is being closed waits for files that are being written.
 const LAST_WAIT: Duration = Duration::from_secs(5);
@@ -169,7 +169,7 @@ impl App {
             None => Self::new(ctx, render_state)?,
         };
         // In a page the browser draws the panels: it shows pictures of the whole window late.
-        let window = if host::IS_PAGE { None } else { app.canvas.software_window() };
+        let window = if IS_PAGE { None } else { app.canvas.software_window() };
         if let Some(window) = window {
             ctx.add_plugin(window);
         }
@@ -186,7 +186,7 @@ impl App {
     ) -> Result<Self, String> {
         let mut app = Self::with_document(ctx, render_state, files::new_document())?;
         app.starts_with_file = true;
-        app.send(Command::File(FileCommand::OpenFirst(file)));
+        app.send(Command::from(FileCommand::OpenFirst(file)));
         Ok(app)
     }
 
@@ -202,8 +202,8 @@ impl App {
         let session = Session::new(document).map_err(|error| error.to_string())?;
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
-        let tools = Tools::for_domain(extent, settings.transfer.h_min);
-        view.dock.follow_tool(tools.tool);
+        let tools = Tools::for_domain(all_tools(ROWS), extent, settings.transfer.h_min);
+        view.dock.follow_tool(tools.tool.name, tools.tool.tab);
         let jobs = Jobs::new(ctx);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {
@@ -212,7 +212,7 @@ impl App {
             tools,
             view,
             canvas: Canvas::new(gpu, &jobs),
-            features: Features::default(),
+            features: features::all(),
             keymap: Keymap::default(),
             unread_keys: None,
             threads: Threads::default(),

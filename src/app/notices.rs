@@ -2,10 +2,10 @@
 
 use super::brake::Need;
 use super::command::{Command, EditCommand};
-use super::widgets::format;
 use meshbrush_core::build::BuildError;
 use meshbrush_mesh::mesh::RefineError;
 use meshbrush_mesh::text::Bytes;
+use meshbrush_ui::widgets::format;
 
 /// A message on the canvas. News disappears after some seconds; a failure stays until it is dismissed or its
 /// cause is gone.
@@ -64,8 +64,8 @@ impl Notices {
             return;
         }
         let notice = self.numbered(false, None, question(need, before, budget));
-        let apply = Command::Edit(EditCommand::ApplyAnyway);
-        let keep = Command::Edit(EditCommand::KeepMesh);
+        let apply = Command::from(EditCommand::ApplyAnyway);
+        let keep = Command::from(EditCommand::KeepMesh);
         let offer = Some(Offer { label: "Keep the mesh", command: keep });
         let other = Some(Offer { label: "Apply anyway", command: apply });
         self.question = Some((need, Notice { offer, other, ..notice }));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use eframe::egui::{Context, Id, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 
-use crate::app::theme::tokens;
+use meshbrush_ui::theme::tokens;
 
 /// A part of the window, in the order of the key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,18 +5,15 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
-use super::command::{Command, FigureCommand, FileCommand};
-use super::file_kinds::{files_that_open, opened_by_ending};
+use super::command::{Command, FileCommand};
 use super::home::{self, Claims, Expected, Home, Loss};
-use super::kit::FileRequest;
-use super::replacing::Replacing;
 use super::session::Session;
-use super::widgets::Answer;
 use meshbrush_io::io;
 use meshbrush_io::io::project::{ENDING, Project};
 use meshbrush_io::io::recipe::RecipeFiles;
 use meshbrush_io::io::recording;
 use meshbrush_render::render::export::ExportFormat;
+use meshbrush_ui::widgets::Answer;
 
 /// Most files that are remembered.
 const MOST_RECENT: usize = 8;
@@ -165,7 +162,7 @@ impl ProjectFile {
         session: &mut Session,
         background: &Background,
     ) -> Option<Command> {
-        if !leaves(&command) || self.may_leave(session) {
+        if !command.closes_document() || self.may_leave(session) {
             return Some(command);
         }
         let document = session.document();
@@ -215,11 +212,11 @@ impl ProjectFile {
         if !ctx.input(|input| input.viewport().close_requested()) {
             let closes = self.closing && !writes;
             self.closing &= !closes;
-            return closes.then_some(Command::File(FileCommand::Quit));
+            return closes.then_some(Command::from(FileCommand::Quit));
         }
         if !self.may_leave(session) || writes {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            if let Some(quit) = self.ask_before_leaving(Command::File(FileCommand::Quit), session, background)
+            if let Some(quit) = self.ask_before_leaving(Command::from(FileCommand::Quit), session, background)
             {
                 announce_closing(&quit, session, background);
                 self.closing = true;
@@ -241,7 +238,7 @@ impl ProjectFile {
         match answer {
             Answer::Confirmed => {
                 self.after_saving = Some(command);
-                Some(Command::File(FileCommand::Save))
+                Some(Command::from(FileCommand::Save))
             }
             Answer::Alternative => {
                 session.document_mut().end_stroke();
@@ -262,16 +259,16 @@ impl ProjectFile {
     pub fn save_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = with_ending(path);
         if io::exists(&path) && self.path() != Some(&path) {
-            self.ask(vec![path.clone()], Loss::Contents, Command::File(FileCommand::SaveTo(path)));
+            self.ask(vec![path.clone()], Loss::Contents, Command::from(FileCommand::SaveTo(path)));
             return None;
         }
-        Some(Command::File(FileCommand::SaveTo(path)))
+        Some(Command::from(FileCommand::SaveTo(path)))
     }
 
     /// Returns the command that exports to a path that was typed. Asks before it replaces other files.
     pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
         let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
-        self.ask_to_replace(files, Command::File(FileCommand::Export(path)))
+        self.ask_to_replace(files, Command::from(FileCommand::Export(path)))
     }
 
     /// Returns the command that writes files. Asks before it replaces any.
@@ -298,9 +295,9 @@ impl ProjectFile {
     pub fn export_test_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = if path.extension().is_none() { path.with_extension(recording::ENDING) } else { path };
         if !io::exists(&path) || io::obstacle(&path).is_some() {
-            return Some(Command::File(FileCommand::ExportTest(path)));
+            return Some(Command::from(FileCommand::ExportTest(path)));
         }
-        self.ask(vec![path.clone()], Loss::Contents, Command::File(FileCommand::ExportTest(path)));
+        self.ask(vec![path.clone()], Loss::Contents, Command::from(FileCommand::ExportTest(path)));
         None
     }
 
@@ -309,7 +306,7 @@ impl ProjectFile {
     pub fn save_recipe_as(&mut self, path: PathBuf, recipe: &RecipeFiles) -> Option<Command> {
         self.ask_to_replace(
             recipe.paths().map(Path::to_owned).collect(),
-            Command::File(FileCommand::SaveRecipe(path)),
+            Command::from(FileCommand::SaveRecipe(path)),
         )
     }
 
@@ -320,7 +317,7 @@ impl ProjectFile {
     /// Asks whether to replace a file although this is lost.
     pub fn ask_to_save_over(&mut self, path: PathBuf, loss: Loss) {
         self.save_again = None;
-        self.ask(vec![path.clone()], loss, Command::File(FileCommand::SaveOver(path)));
+        self.ask(vec![path.clone()], loss, Command::from(FileCommand::SaveOver(path)));
     }
 
     /// Saves the document, unless somebody else saved to the same file, or may do so, or it is read-only:
@@ -331,7 +328,7 @@ impl ProjectFile {
             return self.ask(
                 vec![path.clone()],
                 Loss::OtherWindow,
-                Command::File(FileCommand::SaveOver(path)),
+                Command::from(FileCommand::SaveOver(path)),
             );
         }
         let own = self.home.as_ref().filter(|home| home.path == path);
@@ -377,37 +374,21 @@ impl ProjectFile {
     }
 }
 
-/// Returns whether a command closes the document.
-fn leaves(command: &Command) -> bool {
-    matches!(
-        command,
-        Command::File(FileCommand::New)
-            | Command::File(FileCommand::NewFromPage)
-            | Command::File(FileCommand::OpenExample(_) | FileCommand::ShowExample(..))
-            | Command::Figure(FigureCommand::Open(_))
-            | Command::File(FileCommand::Show(_))
-            | Command::File(FileCommand::Restore)
-            | Command::File(FileCommand::Quit)
-    )
+/// Files that would be replaced.
+pub struct Replacing {
+    /// The files, which exist.
+    pub files: Vec<PathBuf>,
+    /// The loss if the file is replaced.
+    pub loss: Loss,
+    /// The command that replaces them.
+    pub command: Command,
 }
 
 /// Says that the window stays open until the files are written.
 fn announce_closing(command: &Command, session: &mut Session, background: &Background) {
-    if *command == Command::File(FileCommand::Quit) {
+    if *command == Command::from(FileCommand::Quit) {
         let names = background.being_written().collect::<Vec<_>>().join(", ");
         session.tell(format!("Meshbrush closes as soon as this is written: {names}."));
-    }
-}
-
-/// Returns the kind of a file to open, by the ending of its name.
-///
-/// # Errors
-/// Fails with a sentence when files with that ending cannot be opened.
-pub fn opened_kind(path: &Path) -> Result<FileRequest, String> {
-    let name = path.file_name().unwrap_or_default();
-    match opened_by_ending().find(|kind| kind.takes(name)) {
-        Some(kind) => Ok(kind),
-        None => Err(format!("{} cannot be opened. These files can: {}.", path.display(), files_that_open())),
     }
 }
 

@@ -7,8 +7,8 @@ use eframe::egui::Context;
 use super::clock::{SystemTime, UNIX_EPOCH};
 use super::command::{Command, FileCommand};
 use super::project::ProjectFile;
-use super::widgets::{Answer, ConfirmDialog};
 use meshbrush_io::io::project::Project;
+use meshbrush_ui::widgets::{Answer, ConfirmDialog};
 
 /// Returns the seconds since 1970.
 pub fn now() -> u64 {
@@ -38,7 +38,7 @@ pub fn question(
             .alternative("Discard")
             .cancel("Later")
             .show(ctx)
-            .map(|answer| Command::File(FileCommand::AnswerRecovery(answer))),
+            .map(|answer| Command::from(FileCommand::AnswerRecovery(answer))),
     );
 }
 
@@ -47,7 +47,7 @@ pub fn question(
 pub fn take_answer<T>(offered: &mut Option<T>, answer: Answer) -> (Option<Command>, Option<T>) {
     if answer == Answer::Confirmed {
         // It stays offered: the user may still decide to keep the current document.
-        return (offered.as_ref().map(|_| Command::File(FileCommand::Restore)), None);
+        return (offered.as_ref().map(|_| Command::from(FileCommand::Restore)), None);
     }
     (None, offered.take().filter(|_| answer == Answer::Alternative))
 }

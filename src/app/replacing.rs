@@ -1,24 +1,13 @@
 //! The questions before something would be lost: edits of the document, or what is in a file.
 
-use std::path::PathBuf;
-
 use eframe::egui::Context;
 
+use super::background::listed;
 use super::command::{Command, FileCommand};
-use super::files::listed;
 use super::home::Loss;
-use super::widgets::ConfirmDialog;
+use super::project::Replacing;
 use crate::app::kit::FrameState;
-
-/// Files that would be replaced.
-pub struct Replacing {
-    /// The files, which exist.
-    pub files: Vec<PathBuf>,
-    /// The loss if the file is replaced.
-    pub loss: Loss,
-    /// The command that replaces them.
-    pub command: Command,
-}
+use meshbrush_ui::widgets::ConfirmDialog;
 
 /// Asks about unsaved edits and existing files.
 pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, commands: &mut Vec<Command>) {
@@ -30,13 +19,13 @@ pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, com
             dialog
                 .alternative("Do not save")
                 .show(ctx)
-                .map(|answer| Command::File(FileCommand::AnswerLeaving(answer))),
+                .map(|answer| Command::from(FileCommand::AnswerLeaving(answer))),
         );
     }
     if let Some(replacing) = &project.replacing {
         let (question, body) = replacing.question();
         let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
-        commands.extend(dialog.show(ctx).map(|answer| Command::File(FileCommand::AnswerReplacing(answer))));
+        commands.extend(dialog.show(ctx).map(|answer| Command::from(FileCommand::AnswerReplacing(answer))));
     }
 }
 

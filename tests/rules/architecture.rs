@@ -10,7 +10,7 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 28] = [
+const MODULES: [&str; 30] = [
     "text",
     "geometry",
     "mesh",
@@ -38,8 +38,13 @@ const MODULES: [&str; 28] = [
     "scene",
     "render",
     "cli",
+    "theme",
+    "widgets",
     "app",
 ];
+
+/// The modules of the window.
+const OF_WINDOW: [&str; 3] = ["theme", "widgets", "app"];
 
 /// What `src/lib.rs` declares besides: documentation.
 const OTHER_MODULES: [&str; 1] = ["guide"];
@@ -101,6 +106,10 @@ fn rank(module: &str) -> Option<usize> {
 fn files() -> impl Iterator<Item = &'static SourceFile> {
     let ours = |file: &&SourceFile| !file.module.is_empty() && !OTHER_MODULES.contains(&file.top_module());
     read_src().iter().filter(ours)
+}
+
+fn is_of_window(file: &SourceFile) -> bool {
+    OF_WINDOW.contains(&file.top_module())
 }
 
 /// Returns the files of the modules before the given one.
@@ -284,19 +293,19 @@ fn egui_and_wgpu_meet_in_listed_files_only() {
         "src/app/mod.rs",
         "src/app/web/interface.rs",
     ];
-    let window = files().filter(|file| file.top_module() == "app" && !joins.contains(&file.path.as_str()));
+    let window = files().filter(|file| is_of_window(file) && !joins.contains(&file.path.as_str()));
     let window: Vec<&SourceFile> = window.collect();
     for word in ["wgpu", "egui_wgpu"] {
         assert_none(with_word(window.clone(), word), "of the window, only these files use wgpu:");
     }
-    let others = files()
-        .filter(|file| file.top_module() != "app" && !file.path.starts_with("crates/render/src/render/gpu/"));
+    let others =
+        files().filter(|file| !is_of_window(file) && !file.path.starts_with("crates/render/src/render/gpu/"));
     assert_none(with_word(others, "wgpu"), "besides the window, only render/gpu uses wgpu:");
 }
 
 #[test]
 fn only_the_window_uses_egui() {
-    let others: Vec<&SourceFile> = files().filter(|file| file.top_module() != "app").collect();
+    let others: Vec<&SourceFile> = files().filter(|file| !is_of_window(file)).collect();
     for word in ["egui", "egui_plot", "eframe", "rfd"] {
         assert_none(with_word(others.clone(), word), "only the window uses egui:");
     }
@@ -310,7 +319,7 @@ const WAITS: [(&str, &str); 2] = [
 
 #[test]
 fn only_jobs_start_threads_wait_and_catch_panics() {
-    let window = files().filter(|file| file.top_module() == "app");
+    let window = files().filter(|file| is_of_window(file));
     let others: Vec<&SourceFile> = window.filter(|file| !file.path.starts_with("src/app/jobs/")).collect();
     let listed: Vec<String> = WAITS.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
@@ -329,12 +338,11 @@ fn only_jobs_start_threads_wait_and_catch_panics() {
 
 /// Files of the window that may name a tool of another module: the file, and why. All others read the table
 /// of tools.
-const NAMES_A_TOOL: [(&str, &str); 5] = [
+const NAMES_A_TOOL: [(&str, &str); 4] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/kit/tool.rs", "the tool that moves the view belongs to no feature"),
+    ("src/app/kit/features.rs", "the tool that moves the view belongs to no feature"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
-    ("src/app/tools/mod.rs", "brush and eraser have settings, and the brush is the first tool"),
 ];
 
 /// Returns the tools of a file: where others find them, and their names.
@@ -376,8 +384,7 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
 /// The parts of the window, lowest first: each imports only from itself and from parts before it. Whatever is
 /// in no list is of the shell: frame, menus, panels, canvas, dialogs, and what is in no folder of a feature
 /// yet.
-const WINDOW: [(&str, &[&str]); 3] = [
-    ("widgets", &["theme", "widgets"]),
+const WINDOW: [(&str, &[&str]); 2] = [
     (
         "shared",
         &[
@@ -395,12 +402,11 @@ const WINDOW: [(&str, &[&str]); 3] = [
             "document_id",
             "heights",
             "home",
-            "host",
             "jobs",
-            "journal",
             "kit",
             "layer_edits",
             "notices",
+            "platform",
             "presentation",
             "project",
             "readout",
@@ -408,7 +414,6 @@ const WINDOW: [(&str, &[&str]); 3] = [
             "session",
             "size_change",
             "slices",
-            "space",
             "threads",
             "tools",
             "view",
@@ -417,58 +422,35 @@ const WINDOW: [(&str, &[&str]); 3] = [
     ("features", &["features"]),
 ];
 
-/// Files of the window that import from a later part: the file, the module, and why.
-const AHEAD: [(&str, &str, &str); 7] = [
-    ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
-    ("src/app/command/shell.rs", "help", "a topic of the help is data"),
-    ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
-    ("src/app/features/stepping/export.rs", "files", "lists the files written in the words of an export"),
-    ("src/app/project.rs", "file_kinds", "what opening a file means depends on the kinds of files"),
-    ("src/app/project.rs", "replacing", "which files a question is about"),
-    ("src/app/tools/mod.rs", "features", "the settings of tools, which several parts read"),
-];
-
 fn part_of_window(module: &str) -> usize {
     WINDOW.iter().position(|(_, modules)| modules.contains(&module)).unwrap_or(WINDOW.len())
 }
 
 #[test]
 fn the_parts_of_the_window_import_downwards() {
-    let listed: Vec<String> = AHEAD.iter().map(|(file, module, _)| format!("{file} {module}")).collect();
-    let (mut found, mut met) = (Vec::new(), Vec::new());
+    let mut found = Vec::new();
     let in_folder = |file: &&SourceFile| file.top_module() == "app" && file.module.len() > 1;
-    for file in files().filter(in_folder) {
-        // The table of features is what the shell reads: it knows them and the window.
-        if file.module == ["app", "features"] {
-            continue;
-        }
+    // The table of features is what the shell reads: it knows them and the window.
+    for file in files().filter(in_folder).filter(|file| file.module != ["app", "features"]) {
         let own = part_of_window(&file.module[1]);
         for path in file.paths() {
             let [first, second, module, ..] = &path.segments[..] else { continue };
-            if first != "crate" || second != "app" || part_of_window(module) <= own {
-                continue;
-            }
-            let place = format!("{} {module}", file.path);
-            if listed.contains(&place) {
-                met.push(place);
-            } else {
+            if first == "crate" && second == "app" && part_of_window(module) > own {
                 found.push(format!("{}:{} imports from {module}", file.path, path.line));
             }
         }
     }
-    assert_none(found, "in the window the order is widgets, what all share, features, shell:");
-    assert_needed(&listed, &met, "AHEAD");
+    assert_none(found, "in the window the order is what all share, features, shell:");
 }
 
 #[test]
 fn widgets_know_no_mesh() {
-    let known = ["text", "colormap", "plot"];
+    let known = ["text", "colormap", "plot", "theme", "widgets"];
     let mut found = Vec::new();
-    let widgets = |file: &&SourceFile| file.module.len() > 1 && part_of_window(&file.module[1]) == 0;
-    for file in files().filter(|file| file.top_module() == "app").filter(widgets) {
+    for file in files().filter(|file| ["theme", "widgets"].contains(&file.top_module())) {
         for path in file.paths().into_iter().filter(|path| path.segments[0] == "crate") {
             let module = path.segments[1].as_str();
-            if module != "app" && !known.contains(&module) {
+            if !known.contains(&module) {
                 found.push(format!("{}:{} imports from {module}", file.path, path.line));
             }
         }
@@ -476,7 +458,7 @@ fn widgets_know_no_mesh() {
     assert_none(found, "widgets and theme show texts, colours and plots:");
 }
 
-/// Features that import from another one: the file, the other feature, and why.
+/// Features that import more from another one than its commands: the file, the other feature, and why.
 const IMPORTS_A_FEATURE: [(&str, &str, &str); 3] = [
     ("src/app/features/report/comparison.rs", "plots", "compares the experiment with the report"),
     ("src/app/features/report/comparison.rs", "stepping", "compares the step that is shown with the report"),
@@ -489,29 +471,37 @@ fn features_see_a_context_and_not_each_other() {
     let code: Vec<&SourceFile> = files().filter(is_inside).collect();
     assert!(code.iter().any(|file| file.path.ends_with("/execute.rs")), "there are features");
     assert_none(with_word(code.clone(), "App"), "a feature sees the window through `Ctx`:");
+    let commands = commands_of_features(&code);
     let listed: Vec<String> =
         IMPORTS_A_FEATURE.iter().map(|(file, other, _)| format!("{file} {other}")).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
     for file in code {
-        let own = file.module[2].as_str();
-        // `state.features.pins` in the folder `pins` is its own state.
-        let states =
-            file.tokens.windows(3).filter(|three| three[0].text == "features" && three[1].text == ".");
-        let states = states.map(|three| (three[0].line, three[2].text.clone()));
         let paths =
             file.paths().into_iter().filter(|path| path.segments.starts_with(&FEATURES.map(String::from)));
-        let paths = paths.filter_map(|path| Some((path.line, path.segments.get(3)?.clone())));
-        for (line, other) in states.chain(paths).filter(|(_, other)| other != own) {
+        let named = paths.filter_map(|path| Some((path.segments.get(3)?.clone(), path)));
+        for (other, path) in named.filter(|(other, _)| *other != file.module[2]) {
             let place = format!("{} {other}", file.path);
+            let is_command =
+                path.segments.get(4).is_some_and(|name| commands.contains(&(other.as_str(), name.as_str())));
             if listed.contains(&place) {
                 met.push(place);
-            } else {
-                found.push(format!("{}:{line} names the feature {other}", file.path));
+            } else if !is_command {
+                found.push(format!("{}:{} names {}", file.path, path.line, path.segments.join("::")));
             }
         }
     }
-    assert_none(found, "no feature imports another or reads its state:");
+    assert_none(found, "a feature sends commands of another one and imports nothing else from it:");
     assert_needed(&listed, &met, "IMPORTS_A_FEATURE");
+}
+
+/// Returns the types of the commands of each feature: those in its file `command.rs`.
+fn commands_of_features<'a>(features: &[&'a SourceFile]) -> BTreeSet<(&'a str, &'a str)> {
+    let files = features.iter().filter(|file| file.path.ends_with("/command.rs"));
+    let enums = files.flat_map(|file| {
+        let pairs = file.tokens.windows(2).filter(|pair| pair[0].text == "enum");
+        pairs.map(|pair| (file.module[2].as_str(), pair[1].text.as_str()))
+    });
+    enums.collect()
 }
 
 /// The path of the features.

@@ -4,12 +4,12 @@ use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, Wid
 use glam::{DVec2, dvec2};
 
 use crate::app::kit::FrameState;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::degrees::KM_PER_DEGREE;
-use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::{LengthUnit, round_below};
 use meshbrush_render::render::north_arrow::north_arrow;
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::degrees::KM_PER_DEGREE;
+use meshbrush_ui::widgets::{format, paint_floating};
 
 /// Width that the scale bar and its distance from other things take, in points.
 pub const BAR_ROOM: f32 = LONGEST_BAR + 2.0 * BAR_MARGIN.x + 8.0;

@@ -12,8 +12,10 @@ use crate::app::features::picture::show_corners;
 use crate::app::kit::FrameState;
 use crate::app::notices::Notice;
 use crate::app::session::Session;
-use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use meshbrush_core::document::{DrawnPart, Stage};
+use meshbrush_ui::widgets::{
+    Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row,
+};
 
 /// How long news is shown at least, in seconds, and with a button.
 const NEWS_SECONDS: f64 = 5.0;
@@ -77,13 +79,13 @@ impl Canvas {
         let mut rows = 0;
         if let Some((what, done)) = work_on_mesh(session).filter(|_| self.mesh_work.is_long()) {
             if progress_row(&mut card(ui, place(rows)), what, &done) {
-                commands.push(Command::Edit(EditCommand::CancelUpdate));
+                commands.push(Command::from(EditCommand::CancelUpdate));
             }
             rows += 1;
         }
         for Row { id, what, meter, .. } in files {
             if bytes_row(&mut card(ui, place(rows)), what, meter.done(), meter.total()) {
-                commands.push(Command::File(FileCommand::CancelWork(*id)));
+                commands.push(Command::from(FileCommand::CancelWork(*id)));
             }
             rows += 1;
         }
@@ -115,20 +117,20 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     };
     let answer = banner.show(&mut child);
     if !notice.failed && !stands && has_faded(&child, notice) {
-        commands.push(Command::Shell(ShellCommand::DismissNotice));
+        commands.push(Command::from(ShellCommand::DismissNotice));
     }
     match answer {
         BannerAnswer::Open => {}
         BannerAnswer::Acted => match offer {
             Some(offer) => {
-                commands.extend([Command::Shell(ShellCommand::DismissNotice), offer.command.clone()])
+                commands.extend([Command::from(ShellCommand::DismissNotice), offer.command.clone()])
             }
-            None => commands.push(Command::Edit(EditCommand::Undo)),
+            None => commands.push(Command::from(EditCommand::Undo)),
         },
         BannerAnswer::ActedOtherwise => {
             commands.extend(notice.other.as_ref().map(|other| other.command.clone()));
         }
-        BannerAnswer::Dismissed => commands.push(Command::Shell(ShellCommand::DismissNotice)),
+        BannerAnswer::Dismissed => commands.push(Command::from(ShellCommand::DismissNotice)),
     }
     Some(child.min_rect())
 }

@@ -4,9 +4,9 @@ use eframe::egui::{Align2, Pos2, Rect, Ui, pos2};
 
 use super::coordinates::paint_label;
 use crate::app::kit::{FrameState, marks};
-use crate::app::theme::tokens;
 use meshbrush_core::earth::{EarthPlane, graticule};
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::tokens;
 
 /// Distance of the labels from the sides of the canvas, in points: below are hints.
 const FROM_SIDES: [f32; 2] = [6.0, 54.0];

@@ -3,14 +3,14 @@
 use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
-use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR};
+use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
 use crate::app::kit::FrameState;
-use crate::app::theme::{font, tokens};
 use crate::app::view::{FieldOverlay, deepest_level};
-use crate::app::widgets::{elided_text, format, paint_floating};
 use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_study::relief::isobath_interval;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{elided_text, format, paint_floating};
 
 /// Width of the box and of a swatch, in points.
 const WIDTH: f32 = 124.0;
@@ -276,7 +276,7 @@ fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
 
 /// Shows the legend of the lines that are drawn beside the paths.
 fn path_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
-    let paths = &state.features.paths.finder;
+    let paths = &state.feature::<Paths>().finder;
     let mut rows = Vec::new();
     if !paths.corridor.lines().is_empty() {
         let percent = format::digits(100.0 * paths.corridor.share, 3);

@@ -5,13 +5,14 @@ use glam::DVec2;
 
 use super::Canvas;
 use super::space::space_sight;
-use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
+use crate::app::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
+use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
-use crate::app::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
+use meshbrush_ui::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
 /// Identifies the menu, and where it was opened in egui's memory.
 fn id() -> Id {
@@ -58,15 +59,15 @@ fn items(state: &FrameState<'_>, world: DVec2) -> Vec<CatalogItem> {
     of_tool.extend(ROWS.iter().flat_map(|row| (row.entries_at)(state, world)));
     let is_first = of_tool.is_empty();
     let mut items: Vec<_> = of_tool.into_iter().map(|(title, command)| item(title, command)).collect();
-    let query = item("Query here", Command::Inspect(InspectCommand::Query(world)));
+    let query = item("Query here", Command::from(InspectCommand::Query(world)));
     items.extend([
         if is_first { query } else { query.group() },
-        item("Pick the value for the brush", Command::Brush(BrushCommand::Pick(world))),
-        item("Copy the coordinates", Command::Shell(ShellCommand::Copy(state.view.typed_point(world))))
+        item("Pick the value for the brush", Command::from(BrushCommand::Pick(world))),
+        item("Copy the coordinates", Command::from(ShellCommand::Copy(state.view.typed_point(world))))
             .group(),
-        item("Go to… from here", Command::Shell(ShellCommand::AskPlaceNear(world))),
-        item("Centre here", Command::View(ViewCommand::LookAt(world))),
-        item("Fit domain", Command::View(ViewCommand::Fit)),
+        item("Go to… from here", Command::from(ShellCommand::AskPlaceNear(world))),
+        item("Centre here", Command::from(ViewCommand::LookAt(world))),
+        item("Fit domain", Command::from(ViewCommand::Fit)),
     ]);
     items
 }

@@ -37,7 +37,6 @@ use super::jobs::Jobs;
 use super::parts::{Part, mark};
 use super::session::Session;
 use super::software_window::SoftwareWindow;
-use super::theme::tokens;
 use super::tools::{PAN, Tools};
 use super::view::View;
 use crate::app::kit::{FrameState, Gesture, OverMesh, Pointer, Press, marks};
@@ -45,6 +44,7 @@ use meshbrush_core::paint::StrokePlan;
 use meshbrush_mesh::geometry::{Lattice, Rect as WorldRect};
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::scene::Highlights;
+use meshbrush_ui::theme::tokens;
 
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
@@ -105,7 +105,7 @@ impl Canvas {
 
     /// Readies a window that is drawn in software, where the mesh is.
     pub fn software_window(&mut self) -> Option<SoftwareWindow> {
-        self.gpu.as_mut()?.leave_to_software_window().map(SoftwareWindow::new)
+        self.gpu.as_mut()?.leave_to_software_window().map(|state| SoftwareWindow::new(state, canvas_image))
     }
 
     /// Returns the position of the pointer, in world units, while it is on the canvas or in a gesture.
@@ -177,7 +177,7 @@ impl Canvas {
                 if ctx.multi_touch().is_some() {
                     self.give_way_to_fingers(session, commands);
                 }
-                commands.extend(pen_pressure(phase, force).map(BrushCommand::Pen).map(Command::Brush));
+                commands.extend(pen_pressure(phase, force).map(BrushCommand::Pen).map(Command::from));
             }
             Event::WindowFocused(false) => self.interrupt(commands),
             _ => {}
@@ -204,7 +204,7 @@ impl Canvas {
         } else if response.contains_pointer() {
             navigation::zoom(ctx, &mut pointer, commands);
         }
-        commands.extend(navigation::movement(ctx, response.id).map(ViewCommand::Pan).map(Command::View));
+        commands.extend(navigation::movement(ctx, response.id).map(ViewCommand::Pan).map(Command::from));
         let at = response.hover_pos().or(response.interact_pointer_pos());
         self.pointer = at.map(|at| pointer.world(at));
     }
@@ -237,7 +237,7 @@ impl Canvas {
     fn give_way_to_fingers(&mut self, session: &Session, commands: &mut Vec<Command>) {
         let Some(gesture) = self.gesture.take() else { return };
         if session.document().stroke().is_some() {
-            commands.push(Command::Shell(ShellCommand::Escape));
+            commands.push(Command::from(ShellCommand::Escape));
         } else {
             gesture.interrupted(commands);
         }
@@ -315,7 +315,7 @@ impl Canvas {
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
-            Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+            Err(error) => commands.push(Command::from(ShellCommand::Report(error.to_string()))),
         }
         if session.awaits_mesh() {
             return self.draw_ground(ui);

@@ -7,9 +7,9 @@ use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::Pointer;
-use crate::app::theme::tokens;
 use crate::app::view::View;
 use meshbrush_mesh::geometry::Lattice;
+use meshbrush_ui::theme::tokens;
 
 /// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
 const ZOOM_PER_POINT: f64 = 0.004;
@@ -41,12 +41,12 @@ fn zoom_about(at: Pos2, factor: f64, pointer: &mut Pointer<'_>, commands: &mut V
         // About the point of the surface there.
         if let Some(height) = space.height_at_px(px) {
             space.camera = space.camera.about(height);
-            commands.push(Command::View(ViewCommand::Space(SpaceCommand::About(height))));
+            commands.push(Command::from(ViewCommand::Space(SpaceCommand::About(height))));
         }
         space.camera = space.camera.zoomed(factor, px);
     }
     pointer.camera = pointer.camera.zoomed(factor, px);
-    commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
+    commands.push(Command::from(ViewCommand::ZoomAt(factor, px)));
 }
 
 /// Moves and zooms the view with two fingers or more on the canvas: what is under them stays there.
@@ -57,7 +57,7 @@ pub fn by_fingers(fingers: &MultiTouchInfo, pointer: &mut Pointer<'_>, commands:
     let moved = fingers.translation_delta;
     if moved != Vec2::ZERO {
         let px = dvec2(moved.x.into(), moved.y.into()) * pointer.px_per_point;
-        commands.push(Command::View(ViewCommand::Pan(px)));
+        commands.push(Command::from(ViewCommand::Pan(px)));
     }
     if fingers.zoom_delta != 1.0 {
         zoom_about(fingers.center_pos, fingers.zoom_delta.into(), pointer, commands);

@@ -5,15 +5,15 @@ use eframe::egui::{Context, Key, PointerButton, TouchPhase};
 use super::menu;
 use super::space::only_in_plan;
 use crate::app::command::{Command, ShellCommand};
-use crate::app::host;
 use crate::app::kit::{Gesture, Pointer, Press};
+use crate::app::platform::IS_PAGE;
 use crate::app::tools::move_view;
 
 /// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted. In a page fingers have a force, too,
 /// and the page itself tells of pens.
 pub fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>> {
     match phase {
-        _ if host::IS_PAGE => None,
+        _ if IS_PAGE => None,
         TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
         TouchPhase::End | TouchPhase::Cancel => Some(None),
     }
@@ -31,7 +31,7 @@ pub fn begin_gesture(
         PointerButton::Middle => Some(move_view(&press, button, pointer, commands)),
         PointerButton::Primary if space_is_down(ctx) => Some(move_view(&press, button, pointer, commands)),
         PointerButton::Primary if pointer.space.is_some() && !pointer.tools.tool.in_space => {
-            commands.push(Command::Shell(ShellCommand::Tell(only_in_plan(pointer.tools.tool))));
+            commands.push(Command::from(ShellCommand::Tell(only_in_plan(pointer.tools.tool))));
             None
         }
         PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),

@@ -5,13 +5,13 @@ use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 use crate::app::features::painting::picks;
 use crate::app::kit::FrameState;
 use crate::app::readout::{Quantity, value_at};
-use crate::app::theme::{Tokens, tokens};
 use crate::app::tools::PaintKind;
-use crate::app::widgets::{floating_tag, format, tag_size};
 use meshbrush_core::document::{NoChange, NoPaintLayer, Price, Settings};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_mesh::text::short_name;
+use meshbrush_ui::theme::{Tokens, tokens};
+use meshbrush_ui::widgets::{floating_tag, format, tag_size};
 
 /// Space between ring and tag, in points.
 const GAP: f32 = 14.0;
@@ -160,8 +160,8 @@ fn place(bounds: Rect, pointer: Pos2, radius: f32, size: Vec2) -> (Pos2, Align2)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::theme::DARK;
     use eframe::egui::pos2;
+    use meshbrush_ui::theme::DARK;
 
     #[test]
     fn the_tag_says_the_number_and_whether_it_passes_the_budget() {

@@ -10,14 +10,14 @@ use crate::app::command::{Command, ShellCommand};
 use crate::app::heights::{Heights, SpaceSight};
 use crate::app::kit::{FrameState, OverMesh, Tool, marks};
 use crate::app::session::Session;
-use crate::app::theme::{font, tokens};
 use crate::app::view::View;
-use crate::app::widgets::Hint::{Key, KeyOf, Text};
-use crate::app::widgets::{format, hint_pill};
 use meshbrush_core::paint::Mirror;
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_mesh::mesh::{Progress, TriangleId};
 use meshbrush_render::colormap::Ground;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::Hint::{Key, KeyOf, Text};
+use meshbrush_ui::widgets::{format, hint_pill};
 
 /// Greatest length of a straight piece of a line on a surface, in points.
 const STRAIGHT: f32 = 6.0;
@@ -62,7 +62,7 @@ impl Canvas {
         match sent {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
-            Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+            Err(error) => commands.push(Command::from(ShellCommand::Report(error.to_string()))),
         }
         if let (Some(surface), Some(seen)) = (surface, seen) {
             let can_redraw = surface.is_current() && gpu.has_mesh(session);

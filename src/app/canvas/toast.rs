@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use eframe::egui::{Align2, Rect, Ui};
 
-use crate::app::theme::tokens;
-use crate::app::widgets::floating_tag;
+use meshbrush_ui::theme::tokens;
+use meshbrush_ui::widgets::floating_tag;
 
 /// How long it is shown, in seconds.
 const SECONDS: f64 = 1.5;

@@ -6,10 +6,10 @@ use glam::{DVec2, dvec2};
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::FrameState;
 use crate::app::session::Session;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::paint_floating;
 use meshbrush_mesh::geometry;
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::paint_floating;
 
 /// Places along each side of the canvas where the mesh is looked for.
 const PROBES: u32 = 7;
@@ -37,7 +37,7 @@ pub fn show(
     let color = if response.hovered() { tokens(ui).accent } else { tokens(ui).value };
     paint_arrow(ui, place, direction, color);
     if response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(name).clicked() {
-        commands.push(Command::View(ViewCommand::Fit));
+        commands.push(Command::from(ViewCommand::Fit));
     }
     Some(place)
 }

@@ -2,7 +2,12 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use crate::app::command::{Command, DomainCommand, EditCommand, InspectCommand, RegionCommand, ShellCommand};
+use crate::app::command::{Command, EditCommand, ShellCommand};
+use crate::app::features::domain::DomainCommand;
+use crate::app::features::domain::DomainTool;
+use crate::app::features::inspection::InspectCommand;
+use crate::app::features::regions::RegionCommand;
+use crate::app::features::regions::RegionTool;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// History and paint.
@@ -17,36 +22,32 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let redo = named("Redo", history.redo_title());
     let can_undo = state.session.can_undo();
     let can_redo = history.redo_title().is_some();
-    let in_region = !state.tools.region.corners.is_empty();
+    let in_region = !state.tools.settings::<RegionTool>().corners.is_empty();
     let remove = || match in_region {
-        true => Command::Region(RegionCommand::RemoveCorner),
-        false => Command::Domain(DomainCommand::RemoveCorner),
+        true => Command::from(RegionCommand::RemoveCorner),
+        false => Command::from(DomainCommand::RemoveCorner),
     };
-    let in_polygon = in_region || !state.tools.domain.corners.is_empty();
+    let in_polygon = in_region || !state.tools.settings::<DomainTool>().corners.is_empty();
     let undo = if in_polygon {
         CatalogItem::new(Edit, "Undo corner of the polygon", remove())
     } else {
-        CatalogItem::new(Edit, undo, Command::Edit(EditCommand::Undo)).enabled(can_undo)
+        CatalogItem::new(Edit, undo, Command::from(EditCommand::Undo)).enabled(can_undo)
     };
     let mut items = vec![
         undo.id("undo").ctrl(Key::Z),
-        CatalogItem::new(Edit, redo, Command::Edit(EditCommand::Redo))
+        CatalogItem::new(Edit, redo, Command::from(EditCommand::Redo))
             .id("redo")
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
             .ctrl(Key::Y)
             .enabled(can_redo && !in_polygon),
-        CatalogItem::new(Edit, "Clear paint", Command::Edit(EditCommand::ClearPaint))
+        CatalogItem::new(Edit, "Clear paint", Command::from(EditCommand::ClearPaint))
             .keys(Modifiers::COMMAND, Key::Backspace)
             .group(),
-        CatalogItem::new(
-            Edit,
-            "Copy the values of the triangle",
-            Command::Inspect(InspectCommand::CopyReadout),
-        )
-        .ctrl(Key::C)
-        .enabled(state.session.queried_triangle().is_some())
-        .group(),
-        CatalogItem::new(Edit, "Cancel or deselect", Command::Shell(ShellCommand::Escape)).key(Key::Escape),
+        CatalogItem::new(Edit, "Copy the values of the triangle", Command::from(InspectCommand::CopyReadout))
+            .ctrl(Key::C)
+            .enabled(state.session.queried_triangle().is_some())
+            .group(),
+        CatalogItem::new(Edit, "Cancel or deselect", Command::from(ShellCommand::Escape)).key(Key::Escape),
     ];
     if in_polygon {
         items.push(

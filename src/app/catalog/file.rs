@@ -10,8 +10,8 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
-use crate::app::host;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
+use crate::app::platform::IS_PAGE;
 
 /// Recent files in the menu; the palette has all.
 const MOST_RECENT_IN_MENU: usize = 5;
@@ -21,54 +21,54 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::File;
     let has_paths = !state.session.document().settings().paths.routes.is_empty();
     let mut items = vec![
-        CatalogItem::new(File, "New…", Command::File(FileCommand::NewFromPage)).ctrl(Key::N),
-        CatalogItem::new(File, "Open…", Command::File(FileCommand::Ask(&OPEN_ANY))).ctrl(Key::O),
-        CatalogItem::new(File, "Save", Command::File(FileCommand::Save)).ctrl(Key::S),
-        CatalogItem::new(File, "Save as…", Command::File(FileCommand::Ask(&SAVE_PROJECT)))
+        CatalogItem::new(File, "New…", Command::from(FileCommand::NewFromPage)).ctrl(Key::N),
+        CatalogItem::new(File, "Open…", Command::from(FileCommand::Ask(&OPEN_ANY))).ctrl(Key::O),
+        CatalogItem::new(File, "Save", Command::from(FileCommand::Save)).ctrl(Key::S),
+        CatalogItem::new(File, "Save as…", Command::from(FileCommand::Ask(&SAVE_PROJECT)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
-        CatalogItem::new(File, "Save as recipe…", Command::File(FileCommand::Ask(&SAVE_RECIPE))),
-        CatalogItem::new(File, "Add data…", Command::File(FileCommand::Ask(&ADD_DATA)))
+        CatalogItem::new(File, "Save as recipe…", Command::from(FileCommand::Ask(&SAVE_RECIPE))),
+        CatalogItem::new(File, "Add data…", Command::from(FileCommand::Ask(&ADD_DATA)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::D)
             .group(),
         // *Add data…* asks what a file is to be; these know it already.
-        CatalogItem::new(File, "Open picture as risk…", Command::File(FileCommand::Ask(&OPEN_RISK)))
+        CatalogItem::new(File, "Open picture as risk…", Command::from(FileCommand::Ask(&OPEN_RISK)))
             .palette_only(),
         CatalogItem::new(
             File,
             "Open grid as target diameter…",
-            Command::File(FileCommand::Ask(&OPEN_DIAMETERS)),
+            Command::from(FileCommand::Ask(&OPEN_DIAMETERS)),
         )
         .palette_only(),
-        CatalogItem::new(File, "Open background picture…", Command::File(FileCommand::Ask(&OPEN_PICTURE)))
+        CatalogItem::new(File, "Open background picture…", Command::from(FileCommand::Ask(&OPEN_PICTURE)))
             .palette_only(),
-        CatalogItem::new(File, "Open domain…", Command::File(FileCommand::Ask(&OPEN_DOMAIN)))
+        CatalogItem::new(File, "Open domain…", Command::from(FileCommand::Ask(&OPEN_DOMAIN)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         CatalogItem::new(
             File,
             "Open domain in metres…",
-            Command::File(FileCommand::Ask(&OPEN_DOMAIN_IN_METRES)),
+            Command::from(FileCommand::Ask(&OPEN_DOMAIN_IN_METRES)),
         )
         .palette_only(),
         CatalogItem::new(
             File,
             "Open domain in its own coordinates…",
-            Command::File(FileCommand::Ask(&OPEN_DOMAIN_AS_IT_IS)),
+            Command::from(FileCommand::Ask(&OPEN_DOMAIN_AS_IT_IS)),
         )
         .palette_only(),
-        CatalogItem::new(File, "Open the sea around land…", Command::File(FileCommand::Ask(&OPEN_SEA)))
+        CatalogItem::new(File, "Open the sea around land…", Command::from(FileCommand::Ask(&OPEN_SEA)))
             .palette_only(),
         CatalogItem::new(
             File,
             "Add outline to this document…",
-            Command::File(FileCommand::Ask(&ADD_OUTLINE)),
+            Command::from(FileCommand::Ask(&ADD_OUTLINE)),
         )
         .palette_only(),
-        CatalogItem::new(File, "Export mesh…", Command::File(FileCommand::Ask(&EXPORT_MESH)))
+        CatalogItem::new(File, "Export mesh…", Command::from(FileCommand::Ask(&EXPORT_MESH)))
             .ctrl(Key::E)
             .group(),
-        CatalogItem::new(File, "Export path…", Command::File(FileCommand::Ask(&EXPORT_PATH)))
+        CatalogItem::new(File, "Export path…", Command::from(FileCommand::Ask(&EXPORT_PATH)))
             .enabled(has_paths),
-        CatalogItem::new(File, "Export as test…", Command::File(FileCommand::Ask(&EXPORT_TEST))),
+        CatalogItem::new(File, "Export as test…", Command::from(FileCommand::Ask(&EXPORT_TEST))),
     ];
     items.extend(recent(state));
     items.push(last());
@@ -83,7 +83,7 @@ fn recent(state: &FrameState<'_>) -> Vec<CatalogItem> {
         let item = CatalogItem::new(
             Menu::File,
             format!("Open recent {name}"),
-            Command::File(FileCommand::Open(path.clone())),
+            Command::from(FileCommand::Open(path.clone())),
         );
         let item = item.id(format!("open-recent-{}", i + 1)).in_menu(i < MOST_RECENT_IN_MENU);
         items.push(if i == 0 { item.group() } else { item });
@@ -93,10 +93,10 @@ fn recent(state: &FrameState<'_>) -> Vec<CatalogItem> {
 
 /// Ends the window; a page is closed with its tab, and can be sent.
 fn last() -> CatalogItem {
-    let item = if host::IS_PAGE {
-        CatalogItem::new(Menu::File, "Copy link", Command::File(FileCommand::CopyLink))
+    let item = if IS_PAGE {
+        CatalogItem::new(Menu::File, "Copy link", Command::from(FileCommand::CopyLink))
     } else {
-        CatalogItem::new(Menu::File, "Quit", Command::File(FileCommand::Quit)).ctrl(Key::Q)
+        CatalogItem::new(Menu::File, "Quit", Command::from(FileCommand::Quit)).ctrl(Key::Q)
     };
     item.group()
 }

@@ -1,12 +1,12 @@
 //! The tools in the menu Tool.
 
 use crate::app::command::{Command, ShellCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, all_tools};
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// Returns an entry for each tool. How they work is set by entries of their features.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let items = all_tools(state.rows).into_iter().map(|tool| {
-        let item = CatalogItem::new(Menu::Tool, tool.name, Command::Shell(ShellCommand::Use(tool)));
+    let items = state.tools.all().iter().map(|&tool| {
+        let item = CatalogItem::new(Menu::Tool, tool.name, Command::from(ShellCommand::Use(tool)));
         item.key(tool.key).checked(state.tools.tool == tool).above()
     });
     items.collect()

@@ -5,21 +5,21 @@ use eframe::egui::{Key, Modifiers, ThemePreference};
 use crate::app::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
-use crate::app::widgets::key_menu::MENU_KEYS;
 use meshbrush_render::colormap::Colormap;
+use meshbrush_ui::widgets::key_menu::MENU_KEYS;
 
 /// Returns the commands that change the view.
 pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::View;
     let view = state.view;
-    let item = |title: &str, command| CatalogItem::new(View, title, Command::View(command));
+    let item = |title: &str, command| CatalogItem::new(View, title, Command::from(command));
     let aid = |title: &str, aid| item(title, ViewCommand::ToggleAid(aid));
     let theme = |title: &str, theme| item(title, ViewCommand::Theme(theme)).checked(view.theme == theme);
     let mut items = vec![
         item("Fit domain", ViewCommand::Fit).key(Key::Home),
         item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus).key(Key::Equals),
         item("Zoom out", ViewCommand::Zoom(1.0 / 1.5)).key(Key::Minus),
-        CatalogItem::new(View, "Go to…", Command::Shell(ShellCommand::AskPlace)).ctrl(Key::G),
+        CatalogItem::new(View, "Go to…", Command::from(ShellCommand::AskPlace)).ctrl(Key::G),
         item("In space", ViewCommand::Space(SpaceCommand::Toggle))
             .keys(Modifiers::SHIFT, Key::V)
             .checked(view.space.is_on),
@@ -54,7 +54,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Presentation", ViewCommand::TogglePresentation)
             .key(Key::F5)
             .checked(view.presentation.is_some()),
-        CatalogItem::new(View, "Find a command…", Command::Shell(ShellCommand::Palette)).ctrl(Key::P),
+        CatalogItem::new(View, "Find a command…", Command::from(ShellCommand::Palette)).ctrl(Key::P),
     ]);
     items.extend(parts());
     items
@@ -63,7 +63,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
 /// Returns the keys that reach everything without a pointer. No menu needs them.
 fn parts() -> [CatalogItem; 3] {
     let item =
-        |title: &str, command| CatalogItem::new(Menu::View, title, Command::Shell(command)).palette_only();
+        |title: &str, command| CatalogItem::new(Menu::View, title, Command::from(command)).palette_only();
     [
         item("Next part of the window", ShellCommand::FocusPart(1)).key(Key::F6),
         item("Previous part of the window", ShellCommand::FocusPart(-1)).keys(Modifiers::SHIFT, Key::F6),
@@ -77,7 +77,7 @@ fn overlays(shown: FieldOverlay) -> [CatalogItem; 11] {
     FieldOverlay::ALL.map(|overlay| {
         // The key of the overlay that is shown hides it.
         let next = if overlay == shown { FieldOverlay::None } else { overlay };
-        let command = Command::View(ViewCommand::SetOverlay(next));
+        let command = Command::from(ViewCommand::SetOverlay(next));
         let item = CatalogItem::new(Menu::View, overlay.title(), command).checked(overlay == shown);
         match overlay {
             FieldOverlay::Risk => item.key(Key::O).group(),
@@ -92,7 +92,7 @@ fn overlays(shown: FieldOverlay) -> [CatalogItem; 11] {
 fn tabs(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     let shown = state.view.dock.tab();
     Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method).map(move |tab| {
-        let command = Command::View(ViewCommand::ShowTab(tab));
+        let command = Command::from(ViewCommand::ShowTab(tab));
         let item = CatalogItem::new(Menu::View, format!("Show the tab {}", tab.name()), command);
         item.checked(tab == shown).palette_only()
     })
@@ -100,7 +100,7 @@ fn tabs(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
 
 /// Returns the walk of point location, which is a part of the method.
 fn method(state: &FrameState<'_>) -> [CatalogItem; 2] {
-    let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::View(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::from(command));
     let walk = item("Walk of point location", ViewCommand::ToggleAid(CanvasAid::Walk));
     [
         walk.checked(state.view.aids.walk),

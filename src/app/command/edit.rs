@@ -1,5 +1,6 @@
 //! Commands about the document as a whole.
 
+use super::CommandSet;
 use meshbrush_core::document::Setting;
 
 /// One thing to do with the document: history, paint, settings.
@@ -25,3 +26,5 @@ pub enum EditCommand {
     /// Stops the update of the mesh.
     CancelUpdate,
 }
+
+impl CommandSet for EditCommand {}

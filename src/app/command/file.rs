@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::CommandSet;
 use crate::app::background::WorkId;
 use crate::app::home::Home;
 use crate::app::kit::FileRequest;
-use crate::app::widgets::Answer;
 use meshbrush_core::document::{Document, Example};
+use meshbrush_ui::widgets::Answer;
 
 /// One thing to do with documents and their files.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,6 +71,21 @@ pub enum FileCommand {
     AnswerReplacing(Answer),
     /// Answers whether to restore unsaved work of an earlier run.
     AnswerRecovery(Answer),
+}
+
+impl CommandSet for FileCommand {
+    fn closes_document(&self) -> bool {
+        matches!(
+            self,
+            Self::New
+                | Self::NewFromPage
+                | Self::OpenExample(_)
+                | Self::ShowExample(..)
+                | Self::Show(_)
+                | Self::Restore
+                | Self::Quit
+        )
+    }
 }
 
 /// A document that was read and not shown yet.

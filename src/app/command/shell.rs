@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::Command;
-use crate::app::help::HelpTopic;
+use super::{Command, CommandSet, HelpTopic};
 use crate::app::kit::{DataFile, Keymap, Tool};
 
 /// One thing to do with tools, dialogs, help and messages.
@@ -58,3 +57,5 @@ pub enum ShellCommand {
     /// Copies a text to the clipboard.
     Copy(String),
 }
+
+impl CommandSet for ShellCommand {}

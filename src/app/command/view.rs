@@ -3,6 +3,7 @@
 use eframe::egui::ThemePreference;
 use glam::DVec2;
 
+use super::CommandSet;
 use crate::app::kit::{Place, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_mesh::geometry::Rect;
@@ -58,6 +59,8 @@ pub enum ViewCommand {
     /// Changes the view in space.
     Space(SpaceCommand),
 }
+
+impl CommandSet for ViewCommand {}
 
 /// One thing to do with the view in space.
 #[derive(Clone, Copy, Debug, PartialEq)]

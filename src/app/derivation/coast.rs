@@ -5,7 +5,7 @@
 
 use std::collections::HashSet;
 
-use crate::app::host;
+use crate::app::platform::IS_PAGE;
 use meshbrush_core::document::{Follower, MeshChange};
 use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
 use meshbrush_mesh::geometry::LatticePoint;
@@ -14,7 +14,7 @@ use meshbrush_mesh::mesh::{Changes, Mesh, Replacement, TriangleId};
 /// Most triangles that come near the outline in one frame while it is kept in step. With more, the mesh is
 /// derived from scratch by a job: on another thread that takes as long as a few frames. A page has one
 /// thread.
-const MOST_AT_ONCE: usize = if host::IS_PAGE { 32 } else { 4096 };
+const MOST_AT_ONCE: usize = if IS_PAGE { 32 } else { 4096 };
 
 /// The triangles that cleaning removed from a derived mesh, by their corners in ascending order.
 #[derive(Debug, Default)]

@@ -20,15 +20,16 @@ use eframe::egui::Context;
 use crate::app::clock::{Duration, Instant};
 use crate::app::command::Command;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::kit::EditRecorder;
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
-use crate::app::widgets::Answer;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::journal::{self, Abandoned, Journal, Left, Renewal, Renewed};
 use meshbrush_io::io::project::Project;
+use meshbrush_ui::widgets::Answer;
 
 /// An entry that the thread writes.
 enum Entry {
@@ -364,32 +365,33 @@ fn wait_for_disk(written: &Receiver<ToDisk>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Hands finished gestures to the journal.
-pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &ProjectFile) {
-    let edited = project.is_edited(session);
-    if let Some(problem) = keeper.problem() {
-        keeper.broken = true;
-        let text = "Unsaved work is no longer kept in case of a crash";
-        session.report(format!("{text}: {problem}. Save the project from time to time."));
-    }
-    let document = session.document_mut();
-    if keeper.broken || document.is_in_gesture() {
-        return;
-    }
-    let edits = document.take_edits();
-    if edits.is_empty() {
-        return;
-    }
-    let home = project.path().map(Path::to_owned);
-    keeper.enter(match edits.all_paint {
-        true => Entry::Whole(Box::new(Project::of(document)), home),
-        false => Entry::Gesture(
-            edits.settings.then(|| Box::new(document.settings().clone())),
-            document.paint().clone(),
-        ),
-    });
-    if !edited {
-        keeper.note_saved(project);
+impl EditRecorder for JournalKeeper {
+    fn record(&mut self, session: &mut Session, project: &ProjectFile) {
+        let edited = project.is_edited(session);
+        if let Some(problem) = self.problem() {
+            self.broken = true;
+            let text = "Unsaved work is no longer kept in case of a crash";
+            session.report(format!("{text}: {problem}. Save the project from time to time."));
+        }
+        let document = session.document_mut();
+        if self.broken || document.is_in_gesture() {
+            return;
+        }
+        let edits = document.take_edits();
+        if edits.is_empty() {
+            return;
+        }
+        let home = project.path().map(Path::to_owned);
+        self.enter(match edits.all_paint {
+            true => Entry::Whole(Box::new(Project::of(document)), home),
+            false => Entry::Gesture(
+                edits.settings.then(|| Box::new(document.settings().clone())),
+                document.paint().clone(),
+            ),
+        });
+        if !edited {
+            self.note_saved(project);
+        }
     }
 }
 

@@ -23,9 +23,6 @@ const DATA_FOLDER: &str = "meshbrush";
 /// Initial size of the window, in points: it fits a screen of 1440 × 900 with its frame.
 const FIRST_SIZE: [f32; 2] = [1360.0, 800.0];
 
-/// Whether the window is in a page of a browser.
-pub const IS_PAGE: bool = false;
-
 /// Returns the address of the page: a desktop shows none.
 pub fn address() -> String {
     String::new()
@@ -38,7 +35,7 @@ pub fn data_folder() -> Option<PathBuf> {
 
 /// Returns the commands for files that were dropped on the window.
 pub fn take_dropped(files: &[DroppedFileHandle], _: &mut Background, _: &Jobs) -> Vec<Command> {
-    files.iter().map(|file| Command::File(FileCommand::AddData(file.path().to_owned()))).collect()
+    files.iter().map(|file| Command::from(FileCommand::AddData(file.path().to_owned()))).collect()
 }
 
 /// Returns the command that notes the pressure of a pen: on a desktop it comes with the events of touches.

@@ -9,12 +9,13 @@ use eframe::egui::{
 
 use crate::app::background::name_of;
 use crate::app::command::{Command, ShellCommand};
+use crate::app::features::ROWS;
 use crate::app::kit::{
     DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, Preview, RasterFacts,
 };
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, ValueRow, dialog, dialog_title, format};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, ValueRow, dialog, dialog_title, format};
 
 /// Width of the dialog, and of the picture with the facts below it, in points.
 const WIDTH: f32 = 700.0;
@@ -56,9 +57,9 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
     match (shown.inner, chosen) {
         (Some(true), Some(role)) => {
             let command = (role.kind.command)(file.path.clone());
-            commands.extend([Command::Shell(ShellCommand::CloseDialog), command]);
+            commands.extend([Command::from(ShellCommand::CloseDialog), command]);
         }
-        _ if is_closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
+        _ if is_closed => commands.push(Command::from(ShellCommand::CloseDialog)),
         _ => {
             ctx.data_mut(|data| data.insert_temp(id, question));
             return;
@@ -69,7 +70,7 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
 
 /// Returns the roles for such files in their order, each with the reason why it is impossible.
 fn roles(state: &FrameState<'_>, file: &DataFile) -> Vec<(&'static DataRole, Option<String>)> {
-    let all = state.rows.iter().flat_map(|row| row.roles);
+    let all = ROWS.iter().flat_map(|row| row.roles);
     let is_offered = |role: &&DataRole| !file.is_opened || role.kind.act == FileAct::OpenDocument;
     let mut roles: Vec<_> = all.filter(|role| (role.is_for)(&file.contents)).filter(is_offered).collect();
     roles.sort_by_key(|role| role.place);

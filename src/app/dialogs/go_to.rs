@@ -3,12 +3,13 @@
 use eframe::egui::{Align, Context, Id, Key, Layout, RichText, Ui};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, InspectCommand, ShellCommand};
+use crate::app::command::{Command, ShellCommand};
+use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::FrameState;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format};
 use meshbrush_mesh::mesh::TriangleId;
 use meshbrush_mesh::text::{LengthUnit, typed};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format};
 
 /// The target that was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +45,7 @@ impl Place {
             Self::Point(point) => {
                 let bounds = state.session.follower().settings().domain.bounds;
                 if bounds.contains(point) {
-                    return Ok(Command::Inspect(InspectCommand::GoTo(point)));
+                    return Ok(Command::from(InspectCommand::GoTo(point)));
                 }
                 let unit = state.unit();
                 let range =
@@ -58,9 +59,7 @@ impl Place {
             Self::Triangle(number) => {
                 let count = state.session.triangle_count();
                 if number < count {
-                    return Ok(Command::Inspect(InspectCommand::GoToTriangle(TriangleId::from_index(
-                        number,
-                    ))));
+                    return Ok(Command::from(InspectCommand::GoToTriangle(TriangleId::from_index(number))));
                 }
                 let last = format::count(count.saturating_sub(1) as u64);
                 Err(format!("There is no such triangle: they have the numbers 0 to {last}."))
@@ -131,8 +130,8 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let (ready, answer) = shown.inner;
     let closed = if dismissed { Some(false) } else { answer };
     match (closed, ready) {
-        (Some(true), Some(command)) => commands.extend([Command::Shell(ShellCommand::CloseDialog), command]),
-        (Some(false), _) => commands.push(Command::Shell(ShellCommand::CloseDialog)),
+        (Some(true), Some(command)) => commands.extend([Command::from(ShellCommand::CloseDialog), command]),
+        (Some(false), _) => commands.push(Command::from(ShellCommand::CloseDialog)),
         _ => {
             ctx.data_mut(|data| data.insert_temp(id, text));
             return;

@@ -20,12 +20,12 @@ use super::command::{Command, FileCommand, ShellCommand, ViewCommand};
 use super::document_id::DocumentId;
 use super::host;
 use super::jobs::Jobs;
-use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState, Place};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
+use meshbrush_ui::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use system::{Answer, Question};
 
 use system::SystemDialog;
@@ -200,8 +200,8 @@ impl Dialogs {
         let Some(file) = self.file.as_mut().filter(|file| file.is_shown()) else { return };
         match file.show(ctx, facts) {
             FileAnswer::Open => {}
-            FileAnswer::Closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
-            FileAnswer::CancelWork(id) => commands.push(Command::File(FileCommand::CancelWork(id))),
+            FileAnswer::Closed => commands.push(Command::from(ShellCommand::CloseDialog)),
+            FileAnswer::CancelWork(id) => commands.push(Command::from(FileCommand::CancelWork(id))),
             FileAnswer::Chosen(path) => {
                 self.folders.note(file.request(), path.parent());
                 commands.push((file.request().command)(path));
@@ -226,12 +226,12 @@ fn palette(ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) 
     let items: Vec<_> = commands_of_catalog.chain(places).collect();
     match widgets::command_palette(ctx, &items) {
         PaletteAnswer::Open => {}
-        PaletteAnswer::Closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
+        PaletteAnswer::Closed => commands.push(Command::from(ShellCommand::CloseDialog)),
         PaletteAnswer::Chosen(index) => {
             let place =
-                || PLACES.get(index - catalog.len()).map(|place| Command::View(ViewCommand::Reveal(place)));
+                || PLACES.get(index - catalog.len()).map(|place| Command::from(ViewCommand::Reveal(place)));
             let command = catalog.get(index).map(|item| item.command.clone()).or_else(place);
-            commands.push(Command::Shell(ShellCommand::CloseDialog));
+            commands.push(Command::from(ShellCommand::CloseDialog));
             commands.extend(command);
         }
     }
@@ -253,7 +253,7 @@ fn about(ctx: &Context, commands: &mut Vec<Command>) {
         ui.add(ActionButton::new("Close")).clicked()
     });
     if shown.inner || shown.should_close() {
-        commands.push(Command::Shell(ShellCommand::CloseDialog));
+        commands.push(Command::from(ShellCommand::CloseDialog));
     }
 }
 

@@ -11,9 +11,9 @@ use crate::app::features::layers::OPEN_VALUES;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::ADD_DATA;
 use crate::app::kit::{FileRequest, FrameState};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, dialog, dialog_title};
 use meshbrush_core::document::Example;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, dialog, dialog_title};
 
 const WIDTH: f32 = 520.0;
 /// Width of the buttons that a sentence is beside, in points.
@@ -38,7 +38,7 @@ pub fn show(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) 
         contents(ui, state)
     });
     if shown.inner.is_some() || shown.should_close() {
-        commands.push(Command::Shell(ShellCommand::CloseDialog));
+        commands.push(Command::from(ShellCommand::CloseDialog));
     }
     commands.extend(shown.inner.flatten());
 }
@@ -53,7 +53,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>) -> Option<Option<Command>> {
     }
     for (title, sentence, request) in FILES {
         if row(ui, ActionButton::new(title), sentence) {
-            chosen = Some(Some(Command::File(FileCommand::Ask(request))));
+            chosen = Some(Some(Command::from(FileCommand::Ask(request))));
         }
     }
     let recent: Vec<&PathBuf> = state.project.recent().iter().take(MOST_RECENT).collect();
@@ -62,7 +62,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>) -> Option<Option<Command>> {
         ui.horizontal_wrapped(|ui| {
             for path in recent {
                 if ui.add(ActionButton::new(&name_of(path))).clicked() {
-                    chosen = Some(Some(Command::File(FileCommand::Open(path.clone()))));
+                    chosen = Some(Some(Command::from(FileCommand::Open(path.clone()))));
                 }
             }
         });
@@ -71,7 +71,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>) -> Option<Option<Command>> {
     ui.horizontal_wrapped(|ui| {
         for example in Example::ALL {
             if ui.add(ActionButton::new(example.name())).clicked() {
-                chosen = Some(Some(Command::File(FileCommand::OpenExample(example))));
+                chosen = Some(Some(Command::from(FileCommand::OpenExample(example))));
             }
         }
     });

@@ -10,12 +10,13 @@ use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
-use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
+use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT, opened_kind};
 use crate::app::home::{self, Home, Loss};
 use crate::app::host;
 use crate::app::journal::JournalKeeper;
+use crate::app::kit::EditRecorder as _;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
-use crate::app::{files, journal, link, project};
+use crate::app::{files, link};
 use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::Meter;
@@ -25,7 +26,7 @@ impl App {
     fn open_example(&mut self, example: Example) {
         let missing = files::missing_for(example);
         if !missing.is_empty() {
-            let open = Command::File(FileCommand::OpenExample(example));
+            let open = Command::from(FileCommand::OpenExample(example));
             return self.fetch(missing, format!("The example “{}”", example.name()), vec![open]);
         }
         if self.jobs.is_without_threads() && !files::data_of(example).is_empty() {
@@ -42,9 +43,9 @@ impl App {
         if example == Example::Heights {
             let surface = self.session.document().settings().surfaces().next().map(|(layer, _)| layer.id);
             if let Some(surface) = surface {
-                self.send(Command::Layer(LayerCommand::Select(surface)));
+                self.send(Command::from(LayerCommand::Select(surface)));
             }
-            self.send(Command::Plots(PlotsCommand::Show(PlotKind::Errors)));
+            self.send(Command::from(PlotsCommand::Show(PlotKind::Errors)));
         }
     }
 
@@ -78,7 +79,7 @@ impl App {
             FileCommand::Show(opened) => self.show_opened(opened),
             FileCommand::Fail(problem) => self.fail(problem),
             FileCommand::Save => match self.project.path() {
-                Some(path) => self.send(Command::File(FileCommand::SaveTo(path.to_owned()))),
+                Some(path) => self.send(Command::from(FileCommand::SaveTo(path.to_owned()))),
                 None => self.ask_for_file(&SAVE_PROJECT),
             },
             FileCommand::SaveAs(path) => self.commands.extend(self.project.save_as(path)),
@@ -136,7 +137,7 @@ impl App {
 
     /// Opens a link, or a file by a command of its kind.
     fn open_file(&mut self, path: PathBuf, command: fn(FileRequest) -> fn(PathBuf) -> Command) {
-        match (link::part_of(&path), project::opened_kind(&path)) {
+        match (link::part_of(&path), opened_kind(&path)) {
             (Some(link), _) => self.open_link(&link),
             (None, Ok(kind)) => self.send(command(kind)(path)),
             (None, Err(problem)) => self.fail(problem),
@@ -150,7 +151,7 @@ impl App {
             let frame = raster_frame(&self.session);
             look_at(&mut self.background, &path, frame);
         } else {
-            self.send(Command::File(FileCommand::Open(path)));
+            self.send(Command::from(FileCommand::Open(path)));
         }
     }
 
@@ -233,7 +234,7 @@ impl App {
     /// Hands finished gestures to the journal.
     pub(in crate::app) fn record_edits(&mut self) {
         if let Some(keeper) = &mut self.journal {
-            journal::record(keeper, &mut self.session, &self.project);
+            keeper.record(&mut self.session, &self.project);
         }
     }
 
@@ -251,7 +252,7 @@ impl App {
     fn finish(&mut self, outcome: Outcome) {
         match outcome {
             Outcome::Opened { path, opened, note } => {
-                let show = Command::File(FileCommand::Show(opened));
+                let show = Command::from(FileCommand::Show(opened));
                 self.finish_reading(path, [show].into_iter().chain(note.map(|note| *note)).collect());
             }
             Outcome::Read { path, commands } => self.finish_reading(path, commands),

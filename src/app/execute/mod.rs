@@ -8,13 +8,14 @@ mod files;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
+use super::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
-use super::features::{Features, ROWS};
-use super::help::stop_editing_keys;
+use super::features::LAYER_KINDS;
+use super::help::{missing_pictures, stop_editing_keys};
 use super::notices::Offer;
 use super::{files as file_work, parts};
-use crate::app::kit::{Ctx, Tool};
+use crate::app::features::stepping::Stepping;
+use crate::app::kit::{Ctx, EditRecorder, Features, Tool};
 
 impl App {
     /// Runs one command.
@@ -25,8 +26,26 @@ impl App {
         };
         self.run(command, ctx);
         if self.tools.take_selection() {
-            self.view.dock.follow_tool(self.tools.chosen());
+            let tool = self.tools.chosen();
+            self.view.dock.follow_tool(tool.name, tool.tab);
             self.put_down(ctx);
+        }
+    }
+
+    /// Runs one command: one of the window itself, or else of a feature.
+    fn run(&mut self, command: Command, egui: &Context) {
+        if let Some(command) = command.get::<FileCommand>() {
+            self.execute_on_files(command.clone(), egui);
+        } else if let Some(command) = command.get::<EditCommand>() {
+            self.execute_on_document(command.clone());
+        } else if let Some(command) = command.get::<ViewCommand>() {
+            self.view.execute(command.clone(), egui);
+        } else if let Some(command) = command.get::<ShellCommand>() {
+            self.execute_on_shell(command.clone(), egui);
+        } else {
+            let (features, mut ctx) = self.features_in_context(egui);
+            let is_run = features.run(&command, &mut ctx);
+            debug_assert!(is_run, "nothing runs {command:?}");
         }
     }
 
@@ -43,9 +62,9 @@ impl App {
             view: &mut self.view,
             tools: &mut self.tools,
             project: &mut self.project,
-            journal: self.journal.as_mut(),
+            journal: self.journal.as_mut().map(|keeper| keeper as &mut dyn EditRecorder),
             background: &mut self.background,
-            rows: ROWS,
+            layer_kinds: &LAYER_KINDS,
             jobs: &self.jobs,
             commands: &mut self.commands,
             egui,
@@ -54,11 +73,7 @@ impl App {
         (&mut self.features, ctx)
     }
 
-    pub(super) fn execute_on_view(&mut self, command: ViewCommand, ctx: &Context) {
-        self.view.execute(command, ctx);
-    }
-
-    pub(super) fn execute_on_document(&mut self, command: EditCommand, _: &Context) {
+    fn execute_on_document(&mut self, command: EditCommand) {
         match command {
             EditCommand::Undo => self.session.undo(),
             EditCommand::Redo => self.session.redo(),
@@ -72,7 +87,7 @@ impl App {
         }
     }
 
-    pub(super) fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
+    fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
         match command {
             ShellCommand::Use(tool) => self.use_tool(tool),
             ShellCommand::Escape => self.escape(ctx),
@@ -90,7 +105,7 @@ impl App {
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => {
                 stop_editing_keys(ctx);
-                self.fetch(topic.missing_pictures(), "A picture of the manual".into(), Vec::new());
+                self.fetch(missing_pictures(topic), "A picture of the manual".into(), Vec::new());
                 self.help = Some(topic);
             }
             ShellCommand::CloseHelp => {
@@ -107,7 +122,7 @@ impl App {
             ShellCommand::FocusPart(by) => parts::focus(ctx, self.canvas.id(), by),
             ShellCommand::SetKeys(keymap) => self.keymap = keymap,
             ShellCommand::ExportKeysAs(path) => {
-                let write = Command::Shell(ShellCommand::ExportKeys(path.clone()));
+                let write = Command::from(ShellCommand::ExportKeys(path.clone()));
                 self.commands.extend(self.project.ask_to_replace(vec![path], write));
             }
             ShellCommand::ExportKeys(path) => {
@@ -122,7 +137,7 @@ impl App {
     /// triangles, the cut, or the rectangle or polygon. Else closes the help, or clears query and message.
     /// Else leaves the view in space.
     fn escape(&mut self, ctx: &Context) {
-        if self.help.is_none() && self.features.stepping.leave(&mut self.tools) {
+        if self.help.is_none() && self.features.get_mut::<Stepping>().leave(&mut self.tools) {
             return;
         }
         if self.session.document().stroke().is_some() {
@@ -147,7 +162,7 @@ impl App {
 
     /// Selects a tool, for the mesh of the document.
     fn use_tool(&mut self, tool: Tool) {
-        self.features.stepping.leave(&mut self.tools);
+        self.features.get_mut::<Stepping>().leave(&mut self.tools);
         self.tools.select(tool);
     }
 

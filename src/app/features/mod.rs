@@ -16,11 +16,9 @@ pub mod statistics;
 pub mod stepping;
 pub mod threats;
 
-use eframe::egui::Context;
+use std::sync::LazyLock;
 
-use super::App;
-use super::command::{EditCommand, FileCommand, ShellCommand, ViewCommand};
-use super::kit::{Ctx, Feature, Row};
+use super::kit::{Feature, Features, LayerKindRow, Row, kinds_of_layers};
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
@@ -36,105 +34,50 @@ use statistics::Statistics;
 use stepping::Stepping;
 use threats::ThreatEditor;
 
-/// Writes from one list what knows all features: their state, the commands with what runs them, and the
-/// rows. What the window does itself has its commands and the methods that run them in the second list.
-macro_rules! features {
-    (
-        features { $( $(#[$doc:meta])* $field:ident: $Feature:ty as $Command:ident, )* }
-        window { $( $(#[$window_doc:meta])* $Window:ident($command:ty) => $run:ident, )* }
-    ) => {
-        /// The state of all features.
-        #[derive(Default)]
-        pub struct Features {
-            $( $(#[$doc])* pub $field: $Feature, )*
-        }
+/// The kinds of layers of all features, as menus list them.
+pub static LAYER_KINDS: LazyLock<Vec<&LayerKindRow>> = LazyLock::new(|| kinds_of_layers(ROWS));
 
+/// Writes from one list what knows all features: their state, their rows, and what runs their commands.
+macro_rules! features {
+    ( $( $(#[$doc:meta])* $Feature:ty, )* ) => {
         /// The parts of each feature that the window shows.
         pub static ROWS: &[Row] = &[ $( <$Feature as Feature>::ROW, )* ];
 
-        /// One thing to do. Lengths and points are in world units.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum Command {
-            $( $(#[$doc])* $Command(<$Feature as Feature>::Command), )*
-            $( $(#[$window_doc])* $Window($command), )*
-        }
-
-        impl Features {
-            /// Takes and starts work that takes longer than a frame. Returns whether some is left.
-            pub fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
-                let mut left = false;
-                $( left |= self.$field.follow(ctx); )*
-                left
-            }
-
-            /// Puts down what was begun with a tool. Returns whether there was something.
-            pub fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
-                let mut had_something = false;
-                $( had_something |= self.$field.put_down(ctx); )*
-                had_something
-            }
-
-            /// Returns what is left when another document is opened.
-            pub fn for_next_document(self) -> Self {
-                Self { $( $field: self.$field.for_next_document(), )* }
-            }
-        }
-
-        impl App {
-            /// Runs one command.
-            pub(super) fn run(&mut self, command: Command, egui: &Context) {
-                match command {
-                    $( Command::$Command(command) => {
-                        let (features, mut ctx) = self.features_in_context(egui);
-                        features.$field.execute(command, &mut ctx);
-                    } )*
-                    $( Command::$Window(command) => self.$run(command, egui), )*
-                }
-            }
+        /// Returns all features in their first state.
+        pub fn all() -> Features {
+            Features::default() $( .with::<$Feature>() )*
         }
     };
 }
 
 // Menus, side panel, tool strip and canvas show the features in this order.
 features! {
-    features {
-        /// Strokes and the brush.
-        painting: Painting as Brush,
-        /// The domain.
-        domain: DomainEditor as Domain,
-        /// The layers of the size field.
-        layers: LayerEditor as Layer,
-        /// Regions drawn by hand.
-        regions: Regions as Region,
-        /// The paths of the document.
-        paths: Paths as Path,
-        /// The queried point and its triangle.
-        inspection: Inspector as Inspect,
-        /// The steps of the refinement.
-        stepping: Stepping as Steps,
-        /// The threats of the selected layer.
-        threats: ThreatEditor as Threats,
-        /// The pieces of the boundary.
-        boundary: Boundary as Boundary,
-        /// The picture behind the mesh.
-        picture: BackgroundPicture as Picture,
-        /// Points whose triangles and values are followed.
-        pins: Pins as Pins,
-        /// The figures of the mesh.
-        statistics: Statistics as Statistics,
-        /// Plots of the mesh, and of the time that meshes take.
-        plots: Plots as Plots,
-        /// The figures of the report.
-        report: Report as Figure,
-    }
-    window {
-        /// Documents and their files.
-        File(FileCommand) => execute_on_files,
-        /// History, paint and settings of the document.
-        Edit(EditCommand) => execute_on_document,
-        /// Commands about the view.
-        View(ViewCommand) => execute_on_view,
-        /// Tools, dialogs, help and messages.
-        Shell(ShellCommand) => execute_on_shell,
-    }
+    /// Strokes and the brush.
+    Painting,
+    /// The domain.
+    DomainEditor,
+    /// The layers of the size field.
+    LayerEditor,
+    /// Regions drawn by hand.
+    Regions,
+    /// The paths of the document.
+    Paths,
+    /// The queried point and its triangle.
+    Inspector,
+    /// The steps of the refinement.
+    Stepping,
+    /// The threats of the selected layer.
+    ThreatEditor,
+    /// The pieces of the boundary.
+    Boundary,
+    /// The picture behind the mesh.
+    BackgroundPicture,
+    /// Points whose triangles and values are followed.
+    Pins,
+    /// The figures of the mesh.
+    Statistics,
+    /// Plots of the mesh, and of the time that meshes take.
+    Plots,
+    /// The figures of the report.
+    Report,
 }

@@ -5,8 +5,8 @@ use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Modifiers, RichTex
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::file_kinds::{EXPORT_KEYS, IMPORT_KEYS};
 use crate::app::kit::{CatalogItem, Keymap, conflicts, owners, same_keys, shortcut_text};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, key_row_button};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, key_row_button};
 
 /// What the next key that is pressed is for.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl KeyEditor {
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
             self.search_button(ui);
-            let file = |kind| Command::File(FileCommand::Ask(kind));
+            let file = |kind| Command::from(FileCommand::Ask(kind));
             if ui.add(ActionButton::new("Import keys…")).clicked() {
                 commands.push(file(&IMPORT_KEYS));
             }
@@ -225,7 +225,7 @@ fn is_modifier(key: Key) -> bool {
 }
 
 fn set(keymap: Keymap) -> Command {
-    Command::Shell(ShellCommand::SetKeys(keymap))
+    Command::from(ShellCommand::SetKeys(keymap))
 }
 
 /// Returns the command that changes keys.

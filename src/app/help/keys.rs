@@ -8,8 +8,8 @@ use super::key_editor::KeyEditor;
 use crate::app::catalog::gestures;
 use crate::app::command::Command;
 use crate::app::kit::{CatalogItem, Keymap, Menu, shortcut_text};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{SearchField, key_row, matches};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{SearchField, key_row, matches};
 
 /// A line of the list.
 struct Entry<'a> {

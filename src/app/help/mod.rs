@@ -13,49 +13,26 @@ pub use keys::page as keys_page;
 
 use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
-use super::command::{Command, ShellCommand};
-use super::theme::tokens_of;
+use super::command::{Command, HelpTopic, ShellCommand};
 use crate::app::kit::{CatalogItem, Keymap};
+use meshbrush_ui::theme::tokens_of;
 
-/// The contents of the help window.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HelpTopic {
-    /// Keys and gestures.
-    Keys,
-    /// A page of the manual, by its file.
-    Page(&'static str),
-    /// A heading of a page: the file of the page, and the number of the block of the heading.
-    Heading(&'static str, usize),
+fn title(topic: HelpTopic) -> &'static str {
+    match topic {
+        HelpTopic::Keys => "Keyboard and mouse",
+        HelpTopic::Page(file) | HelpTopic::Heading(file, _) => {
+            manual::page_of(file).map_or("", |page| page.title)
+        }
+    }
 }
 
-impl HelpTopic {
-    /// The first page.
-    pub const MANUAL: Self = Self::Page("first-steps.md");
-    /// The page that explains the steps from risk to mesh in one picture.
-    pub const HOW_IT_WORKS: Self = Self::Page("how-it-works.md");
-    /// The words of the field and of the program.
-    pub const GLOSSARY: Self = Self::Page("glossary.md");
-
-    fn title(self) -> &'static str {
-        match self {
-            Self::Keys => "Keyboard and mouse",
-            Self::Page(file) | Self::Heading(file, _) => manual::page_of(file).map_or("", |page| page.title),
+/// Returns the pictures of the page of a topic that are not here yet.
+pub fn missing_pictures(topic: HelpTopic) -> Vec<&'static str> {
+    match topic {
+        HelpTopic::Keys => Vec::new(),
+        HelpTopic::Page(file) | HelpTopic::Heading(file, _) => {
+            manual::page_of(file).map_or(Vec::new(), manual::missing_pictures)
         }
-    }
-
-    /// Returns the pictures of the page that are not here yet.
-    pub fn missing_pictures(self) -> Vec<&'static str> {
-        match self {
-            Self::Keys => Vec::new(),
-            Self::Page(file) | Self::Heading(file, _) => {
-                manual::page_of(file).map_or(Vec::new(), manual::missing_pictures)
-            }
-        }
-    }
-
-    /// Returns the entry of the list that is marked.
-    fn in_list(self) -> Self {
-        if let Self::Heading(file, _) = self { Self::Page(file) } else { self }
     }
 }
 
@@ -84,7 +61,7 @@ pub fn show(
         .collapsible(false)
         .show(ctx, |ui| contents(ui, topic, catalog, keymap, commands));
     if !open {
-        commands.push(Command::Shell(ShellCommand::CloseHelp));
+        commands.push(Command::from(ShellCommand::CloseHelp));
     }
 }
 
@@ -104,9 +81,9 @@ fn contents(
             let pages = manual::PAGES.iter().map(|page| HelpTopic::Page(page.file));
             for other in std::iter::once(HelpTopic::Keys).chain(pages) {
                 let is_shown = query.is_empty() && other == topic.in_list();
-                if ui.selectable_label(is_shown, other.title()).clicked() {
+                if ui.selectable_label(is_shown, title(other)).clicked() {
                     search::clear(ui);
-                    commands.push(Command::Shell(ShellCommand::ShowHelp(other)));
+                    commands.push(Command::from(ShellCommand::ShowHelp(other)));
                 }
             }
         },
@@ -120,7 +97,7 @@ fn contents(
                 return;
             }
             // Each topic keeps how far it was scrolled.
-            ScrollArea::vertical().id_salt(topic.title()).auto_shrink(false).show(ui, |ui| match topic {
+            ScrollArea::vertical().id_salt(title(topic)).auto_shrink(false).show(ui, |ui| match topic {
                 HelpTopic::Keys => keys::show(ui, catalog, keymap, commands),
                 HelpTopic::Page(file) => {
                     if let Some(page) = manual::page_of(file) {
@@ -131,7 +108,7 @@ fn contents(
                     if let Some(page) = manual::page_of(file) {
                         page::show(ui, page, Some(block), commands);
                         // From now on the page is scrolled by hand.
-                        commands.push(Command::Shell(ShellCommand::ShowHelp(HelpTopic::Page(file))));
+                        commands.push(Command::from(ShellCommand::ShowHelp(HelpTopic::Page(file))));
                     }
                 }
             });

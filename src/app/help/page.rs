@@ -9,13 +9,12 @@ use eframe::egui::{
 };
 use egui::text::{LayoutJob, TextFormat};
 
-use super::HelpTopic;
 use super::manual::{Page, page_of};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::{Command, ShellCommand};
+use crate::app::command::{Command, HelpTopic, ShellCommand};
 use crate::app::host::asset;
-use crate::app::theme::{font, metrics, tokens};
 use meshbrush_io::io::png::decode_picture;
+use meshbrush_ui::theme::{font, metrics, tokens};
 
 /// Space between cells of a table.
 const CELL_GAP: f32 = 16.0;
@@ -85,7 +84,7 @@ fn text(ui: &mut Ui, spans: &[Span], commands: &mut Vec<Command>) {
             match part[0].link.as_deref().and_then(page_of) {
                 Some(page) => {
                     if ui.link(plain(part)).clicked() {
-                        commands.push(Command::Shell(ShellCommand::ShowHelp(HelpTopic::Page(page.file))));
+                        commands.push(Command::from(ShellCommand::ShowHelp(HelpTopic::Page(page.file))));
                     }
                 }
                 None => drop(ui.label(job(ui, part))),

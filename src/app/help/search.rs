@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use eframe::egui::{self, Id, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::HelpTopic;
 use super::manual::{PAGES, Page};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::{Command, ShellCommand};
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::SearchField;
+use crate::app::command::{Command, HelpTopic, ShellCommand};
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::SearchField;
 
 /// Most places that are listed.
 const MOST: usize = 40;
@@ -61,7 +60,7 @@ pub fn results(ui: &mut Ui, query: &str, commands: &mut Vec<Command>) {
     for hit in &hits {
         if row(ui, hit) {
             let topic = HelpTopic::Heading(hit.page.file, hit.block);
-            commands.push(Command::Shell(ShellCommand::ShowHelp(topic)));
+            commands.push(Command::from(ShellCommand::ShowHelp(topic)));
             clear(ui);
         }
     }

@@ -3,9 +3,9 @@
 use eframe::egui::{Id, Ui};
 
 use super::FrameState;
-use crate::app::widgets::format;
 use meshbrush_core::earth::Ground;
 use meshbrush_core::layers::Mask;
+use meshbrush_ui::widgets::format;
 
 /// Returns the area that a mask covers, with the unit of the document: on the Earth in the plane of a
 /// projection.

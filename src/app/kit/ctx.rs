@@ -4,11 +4,10 @@ use std::time::Duration;
 
 use eframe::egui::Context;
 
-use super::Row;
+use super::LayerKinds;
 use crate::app::background::Background;
 use crate::app::command::{Command, FileCommand};
 use crate::app::jobs::Jobs;
-use crate::app::journal::{self, JournalKeeper};
 use crate::app::project::ProjectFile;
 use crate::app::session::Session;
 use crate::app::tools::Tools;
@@ -16,6 +15,12 @@ use crate::app::view::View;
 
 /// As much time as the work takes, for pictures that must be the same every time.
 pub const NO_LIMIT: Duration = Duration::from_secs(3600);
+
+/// Keeps unsaved work.
+pub trait EditRecorder {
+    /// Keeps finished gestures.
+    fn record(&mut self, session: &mut Session, project: &ProjectFile);
+}
 
 /// The data that a feature may read and change while it runs a command, besides its own state.
 pub struct Ctx<'a> {
@@ -28,11 +33,11 @@ pub struct Ctx<'a> {
     /// The document's file.
     pub project: &'a mut ProjectFile,
     /// Keeps unsaved work. Absent in tests and screenshots.
-    pub journal: Option<&'a mut JournalKeeper>,
+    pub journal: Option<&'a mut dyn EditRecorder>,
     /// Work on files.
     pub background: &'a mut Background,
-    /// The parts of all features.
-    pub rows: &'static [Row],
+    /// The kinds of layers of all features.
+    pub layer_kinds: LayerKinds,
     /// Work that takes longer than a frame.
     pub jobs: &'a Jobs,
     /// Commands that are run after this one, in the same frame.
@@ -52,12 +57,12 @@ impl Ctx<'_> {
     /// Hands finished gestures to the journal.
     pub fn record_edits(&mut self) {
         if let Some(keeper) = &mut self.journal {
-            journal::record(keeper, self.session, self.project);
+            keeper.record(self.session, self.project);
         }
     }
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
     pub fn fail(&mut self, problem: String) {
-        self.send(Command::File(FileCommand::Fail(problem)));
+        self.send(Command::from(FileCommand::Fail(problem)));
     }
 }

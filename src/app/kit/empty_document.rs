@@ -78,7 +78,7 @@ pub fn show_with_layer(
     let id = LayerId(settings.layers.iter().map(|layer| layer.id.0 + 1).max().unwrap_or(0));
     settings.layers.push(Layer::new(id, kind.name(), kind));
     let mut commands = show_over_extent(settings, file, notes)?;
-    commands.push(Command::Layer(LayerCommand::Select(id)));
+    commands.push(Command::from(LayerCommand::Select(id)));
     Ok(commands)
 }
 
@@ -105,5 +105,5 @@ pub fn show_over_extent(settings: Settings, file: &Path, notes: &[String]) -> Re
     let opened = Opened { document: Arc::new(document), home: None };
     let news = format!("The document was empty, so it takes the extent of {name}{bounds}.");
     let news = [&[news], notes].concat().join(" ");
-    Ok(vec![Command::File(FileCommand::Show(opened)), Command::Shell(ShellCommand::Tell(news))])
+    Ok(vec![Command::from(FileCommand::Show(opened)), Command::from(ShellCommand::Tell(news))])
 }

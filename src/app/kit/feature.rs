@@ -5,13 +5,13 @@ use glam::DVec2;
 use super::{
     CatalogItem, Ctx, DataRole, FileKind, FrameState, GestureHelp, LayerKindRow, OverMesh, Panel, Tool,
 };
-use crate::app::command::Command;
+use crate::app::command::{Command, CommandSet};
 
 /// A feature of the window: a folder under `features` with its state, its commands and what they do, its
 /// panels, its marks on the canvas, its entries in menus, its kinds of files and its tests.
-pub trait Feature: Default {
+pub trait Feature: Default + 'static {
     /// The commands of the feature.
-    type Command;
+    type Command: CommandSet;
 
     /// The parts of the feature that the window shows.
     const ROW: Row;

@@ -6,8 +6,8 @@ use std::str::FromStr;
 use eframe::egui::{Id, Key, Ui};
 
 use super::FrameState;
-use crate::app::widgets::{TextError, TextRow};
 use meshbrush_core::field::formula::ParseError;
+use meshbrush_ui::widgets::{TextError, TextRow};
 
 /// Seconds without a key until a formula is applied: the beginning of `0.0005` is a valid formula, too.
 const PAUSE: f64 = 0.4;

@@ -1,7 +1,8 @@
 //! The data that a frame shows.
 
-use super::{Keymap, Row};
-use crate::app::features::Features;
+use std::any::{Any, TypeId};
+
+use super::{Keymap, LayerKinds};
 use crate::app::project::ProjectFile;
 use crate::app::readout::Readout;
 use crate::app::session::Session;
@@ -10,6 +11,12 @@ use crate::app::tools::Tools;
 use crate::app::view::View;
 use glam::DVec2;
 use meshbrush_mesh::text::LengthUnit;
+
+/// The states of features, by their types.
+pub trait FeatureStates {
+    /// Returns the state of a feature; `None` where the window has no such feature.
+    fn state(&self, id: TypeId) -> Option<&dyn Any>;
+}
 
 /// Everything that a frame shows, to read.
 pub struct FrameState<'a> {
@@ -24,9 +31,9 @@ pub struct FrameState<'a> {
     /// The keys that were changed.
     pub keymap: &'a Keymap,
     /// The features. Each reads its own.
-    pub features: &'a Features,
-    /// The parts of all features.
-    pub rows: &'static [Row],
+    pub features: &'a dyn FeatureStates,
+    /// The kinds of layers of all features.
+    pub layer_kinds: LayerKinds,
     /// The threads on which the window computes.
     pub threads: &'a Threads,
     /// The position of the pointer on the canvas, in world units.
@@ -37,7 +44,16 @@ pub struct FrameState<'a> {
     pub reproducible: bool,
 }
 
-impl FrameState<'_> {
+impl<'a> FrameState<'a> {
+    /// Returns the state of a feature, which reads its own.
+    ///
+    /// # Panics
+    /// Panics where the window has no such feature.
+    pub fn feature<F: 'static>(&self) -> &'a F {
+        let state = self.features.state(TypeId::of::<F>());
+        state.and_then(<dyn Any>::downcast_ref).expect("the window has the feature")
+    }
+
     /// Returns the unit of the document's lengths and coordinates.
     pub fn unit(&self) -> LengthUnit {
         self.session.document().settings().unit

@@ -42,7 +42,7 @@ pub trait Gesture: Debug + Send {
     /// The window lost the pointer. What was done so far stays.
     fn interrupted(&self, commands: &mut Vec<Command>) {
         if self.changes_settings() {
-            commands.push(Command::Edit(EditCommand::EndGesture));
+            commands.push(Command::from(EditCommand::EndGesture));
         }
     }
 

@@ -60,7 +60,7 @@ impl GestureHelp {
 
     /// Returns the entry of the menu Tool. Chosen, it says how the gesture is made.
     pub fn entry(&self) -> Option<CatalogItem> {
-        let command = Command::Shell(ShellCommand::Tell(self.advice.to_owned()));
+        let command = Command::from(ShellCommand::Tell(self.advice.to_owned()));
         let item = CatalogItem::new(Menu::Tool, self.title, command).gesture(self.keys);
         (!self.advice.is_empty()).then_some(item)
     }

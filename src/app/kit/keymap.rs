@@ -142,7 +142,7 @@ mod tests {
 
     fn items(keymap: &Keymap) -> Vec<CatalogItem> {
         let item =
-            |title, key| CatalogItem::new(Menu::Edit, title, Command::Edit(EditCommand::Undo)).key(key);
+            |title, key| CatalogItem::new(Menu::Edit, title, Command::from(EditCommand::Undo)).key(key);
         let mut items = vec![item("One", Key::A), item("Two", Key::B)];
         items.iter_mut().for_each(|item| keymap.apply(item));
         items

@@ -2,10 +2,10 @@
 
 use eframe::egui::Ui;
 
-use super::{FrameState, Row, Tool};
+use super::{FrameState, Tool};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::widgets::{Icon, NumberRow, toggle_row};
 use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_ui::widgets::{Icon, NumberRow, toggle_row};
 
 /// What the window knows of a kind of layer.
 pub struct LayerKindRow {
@@ -23,12 +23,8 @@ pub struct LayerKindRow {
     pub parameters: fn(&mut Ui, &FrameState<'_>, &Layer, &mut Vec<Command>),
 }
 
-/// Returns the kinds of all features, as menus list them.
-pub fn kinds_of_layers(rows: &'static [Row]) -> Vec<&'static LayerKindRow> {
-    let mut kinds: Vec<_> = rows.iter().flat_map(|row| row.layer_kinds).copied().collect();
-    kinds.sort_by_key(|kind| kind.place);
-    kinds
-}
+/// The kinds of layers of all features, as menus list them.
+pub type LayerKinds = &'static [&'static LayerKindRow];
 
 /// A way to add a layer.
 pub struct Addition {
@@ -40,18 +36,18 @@ pub struct Addition {
 
 /// The command that adds a layer.
 pub fn add_layer(kind: LayerKind) -> Command {
-    Command::Layer(LayerCommand::Add(Box::new(kind)))
+    Command::from(LayerCommand::Add(Box::new(kind)))
 }
 
 /// Changes what a layer asks for. Further changes join the gesture.
 pub fn set_kind(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
-    commands.push(Command::Layer(LayerCommand::SetKind(layer.id, Box::new(kind))));
+    commands.push(Command::from(LayerCommand::SetKind(layer.id, Box::new(kind))));
 }
 
 /// Changes what a layer asks for, as a gesture of its own.
 pub fn set_kind_once(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
     set_kind(layer, kind, commands);
-    commands.push(Command::Edit(EditCommand::EndGesture));
+    commands.push(Command::from(EditCommand::EndGesture));
 }
 
 /// Shows the distance beyond which a layer asks for nothing. Returns whether it changed.

@@ -5,20 +5,18 @@ use eframe::egui::{
 };
 use glam::DVec2;
 
-use crate::app::theme::font;
 use crate::app::tools::Tools;
-use crate::app::widgets::Icon;
 use meshbrush_core::domain::CutShape;
 use meshbrush_core::paint::Mirror;
 use meshbrush_mesh::mesh::{MeshView, TriangleId};
 use meshbrush_render::colormap::Ground;
 use meshbrush_render::scene::{Camera, Highlights, Outline as HighlightOutline, highlight_outlines};
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::font;
+use meshbrush_ui::widgets::Icon;
 
 /// Side of a triangle in points below which its number would not fit.
 const SMALLEST_NUMBERED: f64 = 26.0;
-
-/// Ground of a neighbour's number, on any colour of its triangle.
-pub const NUMBER_DISC: Color32 = Color32::from_black_alpha(225);
 
 /// Draws a number on a ground around it.
 pub fn paint_number(

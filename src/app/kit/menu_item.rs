@@ -5,8 +5,8 @@ use eframe::egui::{self, Align2, Button, Rect, Response, Ui, vec2};
 
 use super::CatalogItem;
 use crate::app::command::Command;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::Icon;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::Icon;
 
 /// Shows an entry of a menu, which sends its command when it is clicked. Returns its button.
 pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) -> Response {

@@ -11,10 +11,12 @@
 mod area;
 mod ctx;
 mod data_file;
+mod data_role;
 mod drawing;
 mod empty_document;
 mod entry;
 mod feature;
+mod features;
 mod file_kind;
 mod formula_row;
 mod frame_state;
@@ -37,22 +39,22 @@ mod shortcut;
 mod tool;
 
 pub use area::area_text;
-pub use ctx::{Ctx, NO_LIMIT};
-pub use data_file::{DataContents, DataFile, DataRole, Preview, RasterFacts, look_at, seen_shapes};
+pub use ctx::{Ctx, EditRecorder, NO_LIMIT};
+pub use data_file::{DataContents, DataFile, Preview, RasterFacts, look_at, seen_shapes};
+pub use data_role::DataRole;
 pub use drawing::{DrawingCommands, press_brush, press_corner};
 pub use empty_document::{EmptyDocument, raster_frame, show_over_extent, show_with_layer, with_space_around};
 pub use entry::{CatalogItem, DIGITS, Menu, NOT_QUERYING, QUERYING};
 pub use feature::{Feature, Row};
+pub use features::{Features, all_tools, kinds_of_layers};
 pub use file_kind::{FileAct, FileKind, FileRequest};
 pub use formula_row::FormulaRow;
-pub use frame_state::FrameState;
+pub use frame_state::{FeatureStates, FrameState};
 pub use gesture::{CLICK_SLACK, GRIP_POINTS, Gesture, Pointer, Press, SettingsDrag, nearest_within};
 pub use gesture_help::{GestureHelp, GesturePlace};
 pub use hatching::hatching;
 pub use keymap::{Keymap, conflicts, owners};
-pub use layer_kind::{
-    Addition, LayerKindRow, add_layer, kinds_of_layers, range_rows, set_kind, set_kind_once,
-};
+pub use layer_kind::{Addition, LayerKindRow, LayerKinds, add_layer, range_rows, set_kind, set_kind_once};
 pub use mask_file::with_mask;
 pub use menu_item::menu_item;
 pub use name_field::name_field;
@@ -63,4 +65,4 @@ pub use shortcut::{same_keys, shortcut_text};
 pub use size_price::size_price_row;
 pub use strip::StripItem;
 pub use tab::Tab;
-pub use tool::{OverMesh, Tool, ToolSpec, all_tools};
+pub use tool::{OverMesh, Tool, ToolSpec};

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Id, Ui};
 
-use crate::app::widgets::TextRow;
+use meshbrush_ui::widgets::TextRow;
 
 /// The text typed so far, in egui's memory.
 #[derive(Clone, Debug, Default)]

@@ -6,9 +6,9 @@ use eframe::egui::{Response, RichText, Ui};
 
 use super::{FrameState, Tab};
 use crate::app::command::{Command, EditCommand};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{self, ActionButton, shown_keys};
 use meshbrush_core::document::Setting;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{self, ActionButton, shown_keys};
 
 /// A section of a dock.
 pub struct Panel {
@@ -49,13 +49,13 @@ where
 /// Sends the end of a gesture when a control was released.
 pub fn end_gesture_when_released(response: &Response, commands: &mut Vec<Command>) {
     if widgets::edit_done(response) {
-        commands.push(Command::Edit(EditCommand::EndGesture));
+        commands.push(Command::from(EditCommand::EndGesture));
     }
 }
 
 /// Sends a setting as a gesture of its own.
 pub fn set_once(setting: Setting, commands: &mut Vec<Command>) {
-    commands.extend([Command::Edit(EditCommand::Set(setting)), Command::Edit(EditCommand::EndGesture)]);
+    commands.extend([Command::from(EditCommand::Set(setting)), Command::from(EditCommand::EndGesture)]);
 }
 
 /// Shows a remark in small print. A key is written as in tips: as the id of its entry in braces.

@@ -4,8 +4,8 @@ use eframe::egui::Ui;
 
 use super::FrameState;
 use crate::app::command::{BrushCommand, Command};
-use crate::app::tools::Tools;
-use crate::app::widgets::SliderRow;
+use crate::app::tools::FIRST_RADIUS;
+use meshbrush_ui::widgets::SliderRow;
 
 /// The radius of the brush, which the domain tool shares.
 pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -19,11 +19,11 @@ pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     let slider = SliderRow::new("Radius", &mut radius, least..=0.5 * extent)
         .logarithmic()
         .typed_range(least..=extent)
-        .default(Tools::for_domain(in_plane, 0.0).radius * on_earth)
+        .default(FIRST_RADIUS * in_plane * on_earth)
         .unit(state.unit().symbol());
     let help = "Radius of the brush, in the unit of the document; with a projection on the Earth, where the pointer or the \
                 middle of the view is. Shift+drag changes it[, as do {smaller-brush} and {larger-brush}].";
     if slider.help(help).show(ui).changed() {
-        commands.push(Command::Brush(BrushCommand::Radius(radius / on_earth)));
+        commands.push(Command::from(BrushCommand::Radius(radius / on_earth)));
     }
 }

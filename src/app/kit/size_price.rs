@@ -5,9 +5,9 @@ use eframe::egui::Ui;
 use super::FrameState;
 use crate::app::brake::Need;
 use crate::app::command::{Command, EditCommand};
-use crate::app::widgets::{ValueRow, format};
 use meshbrush_core::document::{Price, Setting, SettingKind};
 use meshbrush_mesh::mesh::Progress;
+use meshbrush_ui::widgets::{ValueRow, format};
 
 const HELP: &str = "By how many triangles the last change of these settings made the mesh larger or smaller, and \
                     how long that took. While a value is typed, or the pointer rests on a choice: what that \
@@ -25,7 +25,7 @@ pub fn size_price_row(
     let considered = state.session.considered();
     let is_ours = considered.is_some_and(|setting| kinds.contains(&setting.kind()));
     if candidate.as_ref() != considered && (candidate.is_some() || is_ours) {
-        commands.push(Command::Edit(EditCommand::Consider(candidate.clone())));
+        commands.push(Command::from(EditCommand::Consider(candidate.clone())));
     }
     let (text, stands_out) = match (candidate, state.session.question()) {
         (Some(candidate), _) => (considered_text(state, &candidate), true),

@@ -5,22 +5,14 @@ use std::fmt;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Rect, Ui};
 use glam::DVec2;
 
-use super::{FrameState, Gesture, Pointer, Press, Row, StripItem, Tab};
+use super::{FrameState, Gesture, Pointer, Press, StripItem, Tab};
 use crate::app::command::Command;
-use crate::app::tools::{PAN, Tools};
-use crate::app::widgets::{Hint, Icon};
+use crate::app::tools::{AnySettings, Tools};
 use meshbrush_core::paint::Brush;
+use meshbrush_ui::widgets::{Hint, Icon};
 
 /// A tool: a static of the feature that it belongs to.
 pub type Tool = &'static ToolSpec;
-
-/// Returns the tools of all features, and the one that moves the view, in the order of the tool strip.
-pub fn all_tools(rows: &'static [Row]) -> Vec<Tool> {
-    let of_features = rows.iter().flat_map(|row| row.tools).copied();
-    let mut tools: Vec<Tool> = of_features.chain([&PAN]).collect();
-    tools.sort_by_key(|tool| tool.place);
-    tools
-}
 
 /// The description of a tool: its names, and its behaviour on the canvas.
 pub struct ToolSpec {
@@ -44,6 +36,10 @@ pub struct ToolSpec {
     pub has_ring: fn(&Tools) -> bool,
     /// The brush of its strokes, if it paints.
     pub brush: Option<fn(&Tools) -> Brush>,
+    /// Whether its strokes remove paint.
+    pub erases: bool,
+    /// The settings that it has at first, if only its feature knows them.
+    pub settings: Option<fn() -> Box<dyn AnySettings>>,
     /// Whether it queries triangles: the one under the pointer is highlighted, the queried one is explained,
     /// pins can be moved, and the digits go to neighbours.
     pub queries: bool,
@@ -115,6 +111,8 @@ impl ToolSpec {
             hint: |_| &[],
             has_ring: |_| false,
             brush: None,
+            erases: false,
+            settings: None,
             queries: false,
             in_space: false,
             paint: |_, _| {},

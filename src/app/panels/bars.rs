@@ -3,9 +3,9 @@
 use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, all_tools, menu_item};
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{Icon, ToolButton};
+use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{Icon, ToolButton};
 
 /// Height that a menu cannot use: that of the bar and its margins.
 const HEIGHT_AROUND_MENU: f32 = metrics::MENU_BAR + 16.0;
@@ -37,13 +37,13 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], co
 /// A button for each tool, and below them undo, redo and fit.
 pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     // In a low window there is no room for what the menus have, too.
-    let rows = (all_tools(state.rows).len() + 3) as f32;
+    let rows = (state.tools.all().len() + 3) as f32;
     let is_low = ui.available_height() < rows * (metrics::TOOL + 6.0);
     ui.spacing_mut().item_spacing.y = if is_low { 2.0 } else { 6.0 };
-    for tool in all_tools(state.rows) {
+    for &tool in state.tools.all() {
         let button = ToolButton::new(tool.icon, tool.name).entry(tool.name);
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
-            commands.push(Command::Shell(ShellCommand::Use(tool)));
+            commands.push(Command::from(ShellCommand::Use(tool)));
         }
     }
     if is_low {
@@ -52,16 +52,16 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.y = 6.0;
         if ToolButton::new(Icon::FIT, "Fit domain").entry("Fit domain").show(ui).clicked() {
-            commands.push(Command::View(ViewCommand::Fit));
+            commands.push(Command::from(ViewCommand::Fit));
         }
         let history = state.session.document().history();
         let redo = ToolButton::new(Icon::REDO, "Redo").entry("redo");
         let undo = ToolButton::new(Icon::UNDO, "Undo").entry("undo");
         if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
-            commands.push(Command::Edit(EditCommand::Redo));
+            commands.push(Command::from(EditCommand::Redo));
         }
         if ui.add_enabled_ui(state.session.can_undo(), |ui| undo.show(ui)).inner.clicked() {
-            commands.push(Command::Edit(EditCommand::Undo));
+            commands.push(Command::from(EditCommand::Undo));
         }
     });
 }

@@ -7,9 +7,9 @@ use eframe::egui::Ui;
 use crate::app::brake::Need;
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, Panel, Tab, set_once};
-use crate::app::widgets::{NumberRow, Section, ValueRow, format, value_row};
 use meshbrush_core::document::{LEAST_MEMORY, Setting, Settings};
 use meshbrush_mesh::mesh::MemoryLimit;
+use meshbrush_ui::widgets::{NumberRow, Section, ValueRow, format, value_row};
 
 /// The longest label of a number; the fields of the others are aligned with it.
 const TRIANGLE_BUDGET: &str = "Triangle budget";

@@ -4,10 +4,11 @@ use eframe::egui::{self, Frame, Margin, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::sections;
 use crate::app::command::{Command, ViewCommand};
+use crate::app::features::report::Report;
 use crate::app::kit::{FrameState, Tab};
 use crate::app::parts::{Part, mark};
-use crate::app::theme::{metrics, tokens};
-use crate::app::widgets::tab_bar;
+use meshbrush_ui::theme::{metrics, tokens};
+use meshbrush_ui::widgets::tab_bar;
 
 /// Widths of the docks, in points.
 const WIDTHS: std::ops::RangeInclusive<f32> = 280.0..=520.0;
@@ -60,7 +61,7 @@ fn upper_dock(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 
 /// Returns the tabs that have something to show. That of the method is out of the way until it is asked for.
 fn tabs(state: &FrameState<'_>) -> Vec<Tab> {
-    let has_method = state.features.report.is_shown() || state.view.dock.tab() == Tab::Method;
+    let has_method = state.feature::<Report>().is_shown() || state.view.dock.tab() == Tab::Method;
     Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method || has_method).collect()
 }
 
@@ -72,7 +73,7 @@ fn lower_dock(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     let shown = state.view.dock.tab();
     let selected = tabs.iter().position(|tab| *tab == shown).unwrap_or(0);
     if let Some(place) = tab_bar(ui, &names, selected) {
-        commands.push(Command::View(ViewCommand::ShowTab(tabs[place])));
+        commands.push(Command::from(ViewCommand::ShowTab(tabs[place])));
     }
     // The scroll bar is in the margin. Each tab keeps its place.
     ScrollArea::vertical().id_salt(("tab", shown.name())).auto_shrink(false).show(ui, |ui| {

@@ -7,9 +7,9 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::threads::Threads;
-use crate::app::widgets::{NumberRow, Section, SliderRow, segmented, value_row};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
+use meshbrush_ui::widgets::{NumberRow, Section, SliderRow, segmented, value_row};
 
 /// Coarse spacing, refinement rule and threads.
 pub static MESH: Panel = Panel { name: "mesh", tab: Tab::Mesh, place: 4, show };
@@ -34,7 +34,7 @@ fn spacing_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(Settings::default().spacing * extent);
     let response = row.unit(state.unit().symbol()).show(ui);
     if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Spacing(spacing))));
+        commands.push(Command::from(EditCommand::Set(Setting::Spacing(spacing))));
     }
     end_gesture_when_released(&response, commands);
     let [columns, rows] = state.session.mesh().lattice().cells();
@@ -65,7 +65,7 @@ fn threads_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let row = NumberRow::new("Threads", &mut count);
     if row.integer().range(1.0..=most).default(most).help(help).show(ui).changed() {
         commands.extend(
-            NonZeroUsize::new(count as usize).map(|count| Command::Shell(ShellCommand::LimitThreads(count))),
+            NonZeroUsize::new(count as usize).map(|count| Command::from(ShellCommand::LimitThreads(count))),
         );
     }
 }

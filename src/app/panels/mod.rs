@@ -25,8 +25,9 @@ use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 use super::command::Command;
 use super::features::{ROWS, report, stepping};
 use super::parts::{Part, mark};
-use super::theme::{metrics, tokens};
+use crate::app::features::stepping::Stepping;
 use crate::app::kit::{CatalogItem, FrameState, Panel, Tab};
+use meshbrush_ui::theme::{metrics, tokens};
 
 /// The sections of the docks that belong to no feature.
 static PANELS: [&Panel; 2] = [&budgets::BUDGETS, &mesh::MESH];
@@ -56,7 +57,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comman
                 bars::tool_strip(ui, state, commands);
             });
     }
-    if state.features.stepping.steps().is_some() {
+    if state.feature::<Stepping>().steps().is_some() {
         egui::Panel::right("step")
             .frame(Frame::new().fill(t.panel))
             .resizable(false)
@@ -90,7 +91,7 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comma
             status::status_bar(ui, state);
         });
     }
-    if let Some(steps) = state.features.stepping.steps() {
+    if let Some(steps) = state.feature::<Stepping>().steps() {
         egui::Panel::bottom("steps")
             .frame(bar)
             .exact_size(stepping::BAR_HEIGHT)

@@ -7,9 +7,9 @@ use eframe::egui::{Align, Layout, Ui};
 use crate::app::features::inspection::decided_by;
 use crate::app::kit::FrameState;
 use crate::app::readout::{Quantity, value_at};
-use crate::app::widgets::{StatusCell, format};
 use meshbrush_core::document::Stage;
 use meshbrush_core::field::RefinementRule;
+use meshbrush_ui::widgets::{StatusCell, format};
 
 /// Space between cells.
 const GAP: f32 = 16.0;

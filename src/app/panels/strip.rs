@@ -8,8 +8,8 @@ use super::view;
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, StripItem};
 use crate::app::parts::{Part, mark};
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{Icon, ToolButton};
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{Icon, ToolButton};
 
 /// Space between options, in points.
 const GAP: f32 = 8.0;

@@ -7,16 +7,16 @@ use eframe::egui::{Response, ThemePreference, Ui};
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
-use crate::app::widgets::{NumberRow, choice_rows, segmented, toggle_row};
 use meshbrush_render::colormap::Colormap;
 use meshbrush_render::scene::{Light, ViewDirection};
+use meshbrush_ui::widgets::{NumberRow, choice_rows, segmented, toggle_row};
 
 /// What is shown in place of the colours of levels.
 pub fn overlay_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut overlay = state.view.overlay;
     let choices = FieldOverlay::ALL.map(|overlay| (overlay, overlay.name()));
     if choice_rows(ui, "Overlay", &mut overlay, &choices).changed() {
-        commands.push(Command::View(ViewCommand::SetOverlay(overlay)));
+        commands.push(Command::from(ViewCommand::SetOverlay(overlay)));
     }
 }
 
@@ -25,7 +25,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let view = state.view;
     let mut edges = view.edges;
     if toggle_row(ui, "Edges", &mut edges).changed() {
-        commands.push(Command::View(ViewCommand::ToggleEdges));
+        commands.push(Command::from(ViewCommand::ToggleEdges));
     }
     for (name, aid, mut shown) in [
         ("Coordinates", CanvasAid::Coordinates, view.aids.coordinates),
@@ -34,14 +34,14 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ("Contours of h̄", CanvasAid::Contours, view.aids.contours),
     ] {
         if toggle_row(ui, name, &mut shown).changed() {
-            commands.push(Command::View(ViewCommand::ToggleAid(aid)));
+            commands.push(Command::from(ViewCommand::ToggleAid(aid)));
         }
     }
     space_rows(ui, state, commands);
     ui.add_space(4.0);
     let mut map = view.colormap;
     if choice_rows(ui, "Colours", &mut map, &Colormap::ALL.map(|map| (map, map.name()))).changed() {
-        commands.push(Command::View(ViewCommand::Colormap(map)));
+        commands.push(Command::from(ViewCommand::Colormap(map)));
     }
     ui.add_space(8.0);
     let mut theme = view.theme;
@@ -51,14 +51,14 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         (ThemePreference::System, "Desktop"),
     ];
     if segmented(ui, "Theme", &mut theme, &themes).changed() {
-        commands.push(Command::View(ViewCommand::Theme(theme)));
+        commands.push(Command::from(ViewCommand::Theme(theme)));
     }
 }
 
 /// The view in space: whether it is shown, from where, and in which light.
 fn space_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let space = &state.view.space;
-    let mut send = |command| commands.push(Command::View(ViewCommand::Space(command)));
+    let mut send = |command| commands.push(Command::from(ViewCommand::Space(command)));
     let mut is_on = space.is_on;
     if toggle_row(ui, "In space", &mut is_on).changed() {
         send(SpaceCommand::Toggle);

@@ -6,10 +6,11 @@ use eframe::egui::{Rect, Vec2, vec2};
 use glam::dvec2;
 
 use super::{OffscreenWindow, boundary, look_at, make_folder, point_at, write_picture};
-use crate::app::command::{Command, InspectCommand, ViewCommand};
-use crate::app::theme::metrics::PANEL_WIDTH;
+use crate::app::command::{Command, ViewCommand};
+use crate::app::features::inspection::InspectCommand;
 use crate::app::view::FieldOverlay;
 use meshbrush_render::render::Image;
+use meshbrush_ui::theme::metrics::PANEL_WIDTH;
 
 /// Size of the windows of which a picture shows the most part, in points.
 const WINDOW: Vec2 = vec2(980.0, 640.0);
@@ -45,7 +46,7 @@ pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
 /// Returns the first example, about to be painted on.
 fn window() -> Result<Image, String> {
     let mut window = OffscreenWindow::open(WINDOW, 1.0)?;
-    window.send(Command::Inspect(InspectCommand::Query(dvec2(0.651, 0.464))));
+    window.send(Command::from(InspectCommand::Query(dvec2(0.651, 0.464))));
     point_at(&mut window, dvec2(0.56, 0.66));
     window.picture()
 }
@@ -64,7 +65,7 @@ fn triangle() -> Result<Image, String> {
     let mut window = canvas_window(SQUARE)?;
     let place = dvec2(0.593, 0.2215);
     look_at(&mut window, place, 6.0);
-    window.send(Command::Inspect(InspectCommand::Query(place)));
+    window.send(Command::from(InspectCommand::Query(place)));
     canvas_of(&mut window)
 }
 
@@ -79,16 +80,16 @@ fn sea() -> Result<Image, String> {
 fn how_it_works() -> Result<Image, String> {
     let mut window = canvas_window(SQUARE)?;
     look_at(&mut window, dvec2(0.72, 0.74), 2.2);
-    window.send(Command::View(ViewCommand::ToggleEdges));
+    window.send(Command::from(ViewCommand::ToggleEdges));
     // No triangle has this level: the overlay alone is drawn.
-    window.send(Command::View(ViewCommand::ShowLevel(Some(NO_LEVEL))));
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
+    window.send(Command::from(ViewCommand::ShowLevel(Some(NO_LEVEL))));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::Risk)));
     let risk = canvas_of(&mut window)?;
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Target)));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::Target)));
     let target = canvas_of(&mut window)?;
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::None)));
-    window.send(Command::View(ViewCommand::ShowLevel(None)));
-    window.send(Command::View(ViewCommand::ToggleEdges));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::None)));
+    window.send(Command::from(ViewCommand::ShowLevel(None)));
+    window.send(Command::from(ViewCommand::ToggleEdges));
     let mesh = canvas_of(&mut window)?;
     Ok(side_by_side(&[risk, target, mesh]))
 }
@@ -96,8 +97,8 @@ fn how_it_works() -> Result<Image, String> {
 /// Returns a window without panels that shows the whole first example.
 fn canvas_window(size: Vec2) -> Result<OffscreenWindow, String> {
     let mut window = OffscreenWindow::open(size, 1.0)?;
-    window.send(Command::View(ViewCommand::TogglePanels));
-    window.send(Command::View(ViewCommand::Fit));
+    window.send(Command::from(ViewCommand::TogglePanels));
+    window.send(Command::from(ViewCommand::Fit));
     Ok(window)
 }
 

@@ -11,17 +11,20 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::StepCommand;
 use super::command::{
-    BoundaryCommand, BrushCommand, Command, DomainCommand, EditCommand, FileCommand, InspectCommand,
-    LayerCommand, PinsCommand, ShellCommand, SpaceCommand, ViewCommand,
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
 };
+use super::features::boundary::BoundaryCommand;
 use super::features::boundary::BoundaryToolMode;
+use super::features::domain::DomainCommand;
 use super::features::domain::DomainToolMode;
+use super::features::inspection::InspectCommand;
 use super::features::paths::{AlternativesCommand, FrontCommand, PATH, PathCommand};
+use super::features::pins::PinsCommand;
 use super::features::plots::{PlotKind, PlotsCommand};
 use super::features::regions::{RegionCommand, RegionShape, RegionTarget};
 use super::features::report::FigureCommand;
+use super::features::stepping::StepCommand;
 use super::tools::PaintKind;
 use super::view::FieldOverlay;
 use crate::app::features::inspection::QUERY;
@@ -106,118 +109,118 @@ fn write_picture(folder: &Path, name: &str, picture: &Image) -> Result<PathBuf, 
 
 /// The first example, about to be painted on, with a queried triangle.
 fn window(window: &mut OffscreenWindow) {
-    window.send(Command::Inspect(InspectCommand::Query(dvec2(0.651, 0.464))));
+    window.send(Command::from(InspectCommand::Query(dvec2(0.651, 0.464))));
     point_at(window, dvec2(0.56, 0.66));
 }
 
 /// A triangle at the end of the route, and its neighbours.
 fn query(window: &mut OffscreenWindow) {
     let place = dvec2(0.6472, 0.1368);
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     look_at(window, place, 7.0);
-    window.send(Command::Inspect(InspectCommand::Query(place)));
+    window.send(Command::from(InspectCommand::Query(place)));
     point_at(window, place + dvec2(0.012, 0.028));
 }
 
 /// A triangle that compatibility asked for, with the chain of triangles that led to it.
 fn why(window: &mut OffscreenWindow) {
     let place = dvec2(0.7431, 0.0208);
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     look_at(window, place + dvec2(0.0, 0.03), 5.0);
-    window.send(Command::Inspect(InspectCommand::Query(place)));
+    window.send(Command::from(InspectCommand::Query(place)));
     point_at(window, place - dvec2(0.0, 0.05));
 }
 
 /// Takes a picture of the cost of compatibility, by level.
 fn plots(window: &mut OffscreenWindow) {
-    window.send(Command::Plots(PlotsCommand::Show(PlotKind::Bisections)));
+    window.send(Command::from(PlotsCommand::Show(PlotKind::Bisections)));
 }
 
 /// Pins with the table of their values.
 fn pins(window: &mut OffscreenWindow) {
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     for pin in [dvec2(0.651, 0.464), dvec2(0.27, 0.51), dvec2(0.715, 0.735), dvec2(0.9, 0.9)] {
-        window.send(Command::Pins(PinsCommand::Add(pin)));
+        window.send(Command::from(PinsCommand::Add(pin)));
     }
 }
 
 /// A step of the refinement, with a triangle that waits on the stack.
 fn steps(window: &mut OffscreenWindow) {
-    window.send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.06))));
-    window.send(Command::Edit(EditCommand::Set(Setting::Spacing(0.25))));
-    window.send(Command::Steps(StepCommand::Begin(None)));
-    window.send(Command::Steps(StepCommand::GoTo(120)));
+    window.send(Command::from(EditCommand::Set(Setting::SmallestDiameter(0.06))));
+    window.send(Command::from(EditCommand::Set(Setting::Spacing(0.25))));
+    window.send(Command::from(StepCommand::Begin(None)));
+    window.send(Command::from(StepCommand::GoTo(120)));
 }
 
 /// A pair of triangles whose neighbours are updated, as in Figure 4 of the report.
 fn figure_4(window: &mut OffscreenWindow) {
-    window.send(Command::Figure(FigureCommand::Open(ReportFigure::Neighbours)));
+    window.send(Command::from(FigureCommand::Open(ReportFigure::Neighbours)));
 }
 
 /// The walk of point location, with the test of Figure 6 of the report.
 fn walk(window: &mut OffscreenWindow) {
-    window.send(Command::Figure(FigureCommand::Open(ReportFigure::Orientation)));
+    window.send(Command::from(FigureCommand::Open(ReportFigure::Orientation)));
     look_at(window, dvec2(6.2, 0.8), 8.0);
 }
 
 /// Figure 1 of the report.
 fn diamond(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Diamond)));
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
-    window.send(Command::Inspect(InspectCommand::Query(dvec2(6.3, 2.3))));
+    window.send(Command::from(FileCommand::OpenExample(Example::Diamond)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(InspectCommand::Query(dvec2(6.3, 2.3))));
 }
 
 /// Slope as risk, close enough to see triangles.
 fn terrain(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Terrain)));
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(FileCommand::OpenExample(Example::Terrain)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     look_at(window, dvec2(20.2, 19.8), 5.0);
-    window.send(Command::Inspect(InspectCommand::Query(dvec2(22.1, 19.2))));
+    window.send(Command::from(InspectCommand::Query(dvec2(22.1, 19.2))));
 }
 
 /// A sea with its mesh fitted to the coast, about to be cut.
 fn aegean(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Aegean)));
-    window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
-    window.send(Command::Brush(BrushCommand::Radius(0.2)));
+    window.send(Command::from(FileCommand::OpenExample(Example::Aegean)));
+    window.send(Command::from(DomainCommand::Mode(DomainToolMode::Brush)));
+    window.send(Command::from(BrushCommand::Radius(0.2)));
     point_at(window, dvec2(25.25, 38.1));
 }
 
 /// A sea in space, about to be painted on.
 fn space(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::CelticSea)));
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::None)));
-    window.send(Command::View(ViewCommand::Space(SpaceCommand::Toggle)));
-    window.send(Command::View(ViewCommand::Zoom(1.3)));
+    window.send(Command::from(FileCommand::OpenExample(Example::CelticSea)));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::None)));
+    window.send(Command::from(ViewCommand::Space(SpaceCommand::Toggle)));
+    window.send(Command::from(ViewCommand::Zoom(1.3)));
     let middle = window.domain_center();
     point_at(window, middle);
 }
 
 /// The smallest mesh within an error of a terrain, where it is higher and lower, and the curve of the errors.
 fn surface(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Heights)));
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
+    window.send(Command::from(FileCommand::OpenExample(Example::Heights)));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
     let middle = window.domain_center();
     look_at(window, middle, 8.0);
 }
 
 /// Every kind of layer. The overlay has the colours of the layers that decide h̄; the threats are selected.
 fn layers(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Layers)));
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Layer)));
+    window.send(Command::from(FileCommand::OpenExample(Example::Layers)));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::Layer)));
     let is_threats = |layer: &&Layer| matches!(layer.kind, LayerKind::Threats(_));
     if let Some(threats) = window.layers().iter().find(is_threats).map(|layer| layer.id) {
-        window.send(Command::Layer(LayerCommand::Select(threats)));
+        window.send(Command::from(LayerCommand::Select(threats)));
     }
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     point_at(window, dvec2(15.9, 17.2));
 }
 
 /// A path of least cost between threats, with its proved interval and the risk along it.
 fn path(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Path)));
-    window.send(Command::Shell(ShellCommand::Use(&PATH)));
-    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
+    window.send(Command::from(FileCommand::OpenExample(Example::Path)));
+    window.send(Command::from(ShellCommand::Use(&PATH)));
+    window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::Risk)));
 }
 
 /// Takes pictures of other paths: the corridor around the best one, alternatives, and the front of length
@@ -230,43 +233,43 @@ fn front(window: &mut OffscreenWindow) {
         PathCommand::Alternatives(AlternativesCommand::Show(true)),
         PathCommand::Front(FrontCommand::Show(true)),
     ] {
-        window.send(Command::Path(command));
+        window.send(Command::from(command));
     }
 }
 
 /// The pieces of a coast, one of them selected.
 fn boundary(window: &mut OffscreenWindow) {
-    window.send(Command::File(FileCommand::OpenExample(Example::Aegean)));
-    window.send(Command::Boundary(BoundaryCommand::Mode(BoundaryToolMode::Select)));
-    window.send(Command::Boundary(BoundaryCommand::Click(dvec2(24.9, 35.35), 0.3)));
+    window.send(Command::from(FileCommand::OpenExample(Example::Aegean)));
+    window.send(Command::from(BoundaryCommand::Mode(BoundaryToolMode::Select)));
+    window.send(Command::from(BoundaryCommand::Click(dvec2(24.9, 35.35), 0.3)));
     point_at(window, dvec2(26.0, 38.3));
 }
 
 /// A keep-out region that was drawn by hand, another one under way, and the mask of a layer.
 fn region(window: &mut OffscreenWindow) {
     path(window);
-    let draw = |shape| Command::Region(RegionCommand::Draw(DrawnShape::Area(shape), true));
-    let end = || Command::Edit(EditCommand::EndGesture);
-    window.send(Command::Region(RegionCommand::Target(RegionTarget::KeepOut)));
+    let draw = |shape| Command::from(RegionCommand::Draw(DrawnShape::Area(shape), true));
+    let end = || Command::from(EditCommand::EndGesture);
+    window.send(Command::from(RegionCommand::Target(RegionTarget::KeepOut)));
     let corners = vec![dvec2(64.0, 28.0), dvec2(77.0, 36.0), dvec2(72.0, 47.0), dvec2(62.0, 40.0)];
     window.send(draw(CutShape::Ring(corners)));
     window.send(end());
-    window.send(Command::Region(RegionCommand::Target(RegionTarget::Mask)));
-    window.send(Command::Brush(BrushCommand::Radius(12.0)));
+    window.send(Command::from(RegionCommand::Target(RegionTarget::Mask)));
+    window.send(Command::from(BrushCommand::Radius(12.0)));
     window.send(draw(CutShape::Stroke { path: vec![dvec2(20.0, 30.0), dvec2(40.0, 70.0)], radius: 12.0 }));
     window.send(end());
-    window.send(Command::Region(RegionCommand::Target(RegionTarget::KeepOut)));
-    window.send(Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+    window.send(Command::from(RegionCommand::Target(RegionTarget::KeepOut)));
+    window.send(Command::from(RegionCommand::Shape(RegionShape::Polygon)));
     for corner in [dvec2(80.0, 50.0), dvec2(96.0, 52.0), dvec2(94.0, 62.0)] {
-        window.send(Command::Region(RegionCommand::AddCorner(corner)));
+        window.send(Command::from(RegionCommand::AddCorner(corner)));
     }
     point_at(window, dvec2(84.0, 64.0));
 }
 
 /// The first example in the light theme.
 fn light(window: &mut OffscreenWindow) {
-    window.send(Command::View(ViewCommand::Theme(ThemePreference::Light)));
-    window.send(Command::Inspect(InspectCommand::Query(dvec2(0.715, 0.61))));
+    window.send(Command::from(ViewCommand::Theme(ThemePreference::Light)));
+    window.send(Command::from(InspectCommand::Query(dvec2(0.715, 0.61))));
     point_at(window, dvec2(0.43, 0.73));
 }
 
@@ -274,24 +277,24 @@ fn light(window: &mut OffscreenWindow) {
 fn deep(window: &mut OffscreenWindow) {
     let place = dvec2(0.3127, 0.6183);
     let formula = Formula::parse("max(1e-8, 0.3*hypot(x - 0.3127, y - 0.6183))").expect("a valid formula");
-    window.send(Command::File(FileCommand::New));
-    window.send(Command::Edit(EditCommand::Set(Setting::RefinementRule(RefinementRule::Vertex))));
-    window.send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(1e-8))));
-    window.send(Command::Edit(EditCommand::Set(Setting::Layers(Layer::usual(LayerKind::target(formula))))));
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(FileCommand::New));
+    window.send(Command::from(EditCommand::Set(Setting::RefinementRule(RefinementRule::Vertex))));
+    window.send(Command::from(EditCommand::Set(Setting::SmallestDiameter(1e-8))));
+    window.send(Command::from(EditCommand::Set(Setting::Layers(Layer::usual(LayerKind::target(formula))))));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     look_at(window, place, 2e5);
-    window.send(Command::Inspect(InspectCommand::Query(place + dvec2(1.1e-6, 0.7e-6))));
+    window.send(Command::from(InspectCommand::Query(place + dvec2(1.1e-6, 0.7e-6))));
 }
 
 /// A command by a few of its letters.
 fn palette(window: &mut OffscreenWindow) {
-    window.send(Command::Shell(ShellCommand::Palette));
+    window.send(Command::from(ShellCommand::Palette));
     window.event(Event::Text("over".into()));
 }
 
 /// The smallest window, painting a diameter.
 fn smallest(window: &mut OffscreenWindow) {
-    window.send(Command::Brush(BrushCommand::Kind(PaintKind::Diameter)));
+    window.send(Command::from(BrushCommand::Kind(PaintKind::Diameter)));
     point_at(window, dvec2(0.9, 0.5));
 }
 
@@ -302,8 +305,8 @@ fn point_at(window: &mut OffscreenWindow, world: DVec2) {
 
 /// Puts a point of the world in the middle, as a middle drag does, and zooms.
 fn look_at(window: &mut OffscreenWindow, world: DVec2, factor: f64) {
-    window.send(Command::View(ViewCommand::LookAt(world)));
-    window.send(Command::View(ViewCommand::Zoom(factor)));
+    window.send(Command::from(ViewCommand::LookAt(world)));
+    window.send(Command::from(ViewCommand::Zoom(factor)));
 }
 
 /// Returns the position of a point of the world on the screen.

@@ -6,15 +6,14 @@ use eframe::egui::{Event, Modifiers, PointerButton, Vec2, vec2};
 use glam::{DVec2, dvec2};
 
 use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_picture};
-use crate::app::command::{
-    BrushCommand, Command, DomainCommand, FileCommand, InspectCommand, ShellCommand, ViewCommand,
-};
-use crate::app::features::domain::DomainToolMode;
-use crate::app::features::inspection::QUERY;
-use crate::app::features::painting::{BrushMode, ERASER};
+use crate::app::command::{BrushCommand, Command, FileCommand, ShellCommand, ViewCommand};
+use crate::app::features::domain::{DomainCommand, DomainToolMode};
+use crate::app::features::inspection::{InspectCommand, QUERY};
+use crate::app::features::painting::ERASER;
 use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
 use crate::app::host::asset;
+use crate::app::tools::BrushMode;
 use meshbrush_io::io;
 
 /// Size of the window, in points.
@@ -30,7 +29,7 @@ const STEPS: [Step; 8] = [
     ("4-pick", pick),
     ("5-query", query),
     ("6-cut", cut),
-    ("7-save", |window| window.send(Command::File(FileCommand::Ask(&SAVE_PROJECT)))),
+    ("7-save", |window| window.send(Command::from(FileCommand::Ask(&SAVE_PROJECT)))),
     ("8-export", export),
 ];
 
@@ -56,44 +55,44 @@ pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
 
 /// A stroke along the middle of the sea.
 fn paint(window: &mut OffscreenWindow) {
-    window.send(Command::Brush(BrushCommand::Radius(0.25)));
+    window.send(Command::from(BrushCommand::Radius(0.25)));
     drag(window, &[dvec2(24.4, 38.9), dvec2(24.9, 38.4), dvec2(25.3, 37.9), dvec2(25.6, 37.2)]);
     point_at(window, dvec2(25.9, 36.9));
 }
 
 fn erase(window: &mut OffscreenWindow) {
-    window.send(Command::Shell(ShellCommand::Use(&ERASER)));
+    window.send(Command::from(ShellCommand::Use(&ERASER)));
     drag(window, &[dvec2(25.0, 38.3), dvec2(25.2, 38.1)]);
 }
 
 /// The value of the stroke, painted elsewhere.
 fn pick(window: &mut OffscreenWindow) {
-    window.send(Command::Brush(BrushCommand::Mode(BrushMode::BuildUp)));
-    window.send(Command::Brush(BrushCommand::Pick(dvec2(25.5, 37.5))));
+    window.send(Command::from(BrushCommand::Mode(BrushMode::BuildUp)));
+    window.send(Command::from(BrushCommand::Pick(dvec2(25.5, 37.5))));
     drag(window, &[dvec2(25.9, 39.0), dvec2(25.6, 39.3)]);
     point_at(window, dvec2(25.2, 39.3));
 }
 
 fn query(window: &mut OffscreenWindow) {
     let place = dvec2(25.15, 37.75);
-    window.send(Command::Shell(ShellCommand::Use(&QUERY)));
+    window.send(Command::from(ShellCommand::Use(&QUERY)));
     look_at(window, place, 8.0);
-    window.send(Command::Inspect(InspectCommand::Query(place)));
+    window.send(Command::from(InspectCommand::Query(place)));
 }
 
 fn cut(window: &mut OffscreenWindow) {
-    window.send(Command::View(ViewCommand::Fit));
-    window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
+    window.send(Command::from(ViewCommand::Fit));
+    window.send(Command::from(DomainCommand::Mode(DomainToolMode::Polygon)));
     for corner in [dvec2(23.4, 40.2), dvec2(24.6, 40.5), dvec2(24.4, 39.6)] {
-        window.send(Command::Domain(DomainCommand::AddCorner(corner)));
+        window.send(Command::from(DomainCommand::AddCorner(corner)));
     }
     point_at(window, dvec2(23.6, 39.5));
 }
 
 fn export(window: &mut OffscreenWindow) {
-    window.send(Command::Shell(ShellCommand::CloseDialog));
-    window.send(Command::Domain(DomainCommand::ClosePolygon));
-    window.send(Command::File(FileCommand::Ask(&EXPORT_MESH)));
+    window.send(Command::from(ShellCommand::CloseDialog));
+    window.send(Command::from(DomainCommand::ClosePolygon));
+    window.send(Command::from(FileCommand::Ask(&EXPORT_MESH)));
 }
 
 fn drag(window: &mut OffscreenWindow, points: &[DVec2]) {

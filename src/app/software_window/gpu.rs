@@ -4,25 +4,28 @@ use eframe::egui::{Context, FullOutput, PaintCallbackInfo, epaint::ClippedShape}
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState};
 use eframe::wgpu;
 
-use super::WindowImage;
-use crate::app::canvas::canvas_image;
+use super::{CanvasImage, WindowImage};
 use meshbrush_render::render::gpu::ShownImage;
 
 /// Draws all shapes of a window itself, and leaves the driver one picture.
 pub struct SoftwareWindow {
     state: RenderState,
     window: WindowImage,
+    canvas_image: TakeCanvasImage,
 }
+
+/// Returns the picture of the canvas; `None` while the driver must draw something over it.
+pub type TakeCanvasImage = fn(&mut CallbackResources) -> Option<CanvasImage<'_>>;
 
 /// The picture in the driver's memory.
 struct WindowTexture(ShownImage);
 
 impl SoftwareWindow {
     /// Readies the driver behind a window.
-    pub fn new(state: &RenderState) -> Self {
+    pub fn new(state: &RenderState, canvas_image: TakeCanvasImage) -> Self {
         let texture = WindowTexture(ShownImage::new(&state.device, state.target_format));
         state.renderer.write().callback_resources.insert(texture);
-        Self { state: state.clone(), window: WindowImage::default() }
+        Self { state: state.clone(), window: WindowImage::default(), canvas_image }
     }
 
     /// Draws everything again in the next frame.
@@ -51,7 +54,7 @@ impl SoftwareWindow {
         if size.contains(&0) || size.iter().any(|&n| n > limit) {
             return None;
         }
-        let canvas = canvas_image(resources)?;
+        let canvas = (self.canvas_image)(resources)?;
         let primitives = ctx.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
         let part = self.window.draw(primitives, Some(&canvas), size, output.pixels_per_point);
         let WindowTexture(shown) = resources.get_mut()?;

@@ -14,7 +14,8 @@ use super::{
     Window, active, click_button, document, entries, key, notice, open_menu, open_tab, paint, send, set,
     settings, value_of, wait_for_notice, wait_until, window,
 };
-use crate::app::command::{Command, FileCommand, LayerCommand, PictureCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::features::picture::PictureCommand;
 use crate::app::kit::Tab;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
@@ -80,7 +81,7 @@ fn choose_role(window: &mut Window, title: &str) {
 }
 
 fn new_document(window: &mut Window) {
-    send(window, Command::File(FileCommand::New));
+    send(window, Command::from(FileCommand::New));
 }
 
 #[test]
@@ -121,7 +122,7 @@ fn the_facts_of_a_file_are_its_own_size_and_an_extent_without_idle_digits() {
     let mut window = window();
     new_document(&mut window);
     drop_and_wait(&mut window, &file);
-    let size = crate::app::widgets::format::file_size(netcdf.len() as u64);
+    let size = meshbrush_ui::widgets::format::file_size(netcdf.len() as u64);
     assert_eq!(value_of(&window, Role::Definition, "File size"), size);
     key(&mut window, Modifiers::NONE, Key::Escape);
     let grid =
@@ -295,7 +296,7 @@ fn points_and_background_pictures_give_an_empty_document_their_extent() {
             fs::write(picture.with_extension("pgw"), text).unwrap();
         }
         new_document(&mut window);
-        send(&mut window, Command::Picture(PictureCommand::Open(picture.clone())));
+        send(&mut window, Command::from(PictureCommand::Open(picture.clone())));
         wait_until(&mut window, |window| settings(window).background.is_some());
         let Settings { domain, background, .. } = settings(&window);
         let background = background.as_ref().unwrap();
@@ -360,7 +361,7 @@ fn a_picture_lies_where_its_world_file_says() {
     fs::write(file.with_extension("pgw"), "2\n0\n0\n-2\n101\n899\n").unwrap();
     let mut window = window();
     new_document(&mut window);
-    send(&mut window, Command::Layer(LayerCommand::OpenImage(file)));
+    send(&mut window, Command::from(LayerCommand::OpenImage(file)));
     wait_until(&mut window, |window| settings(window).layers.len() == 4);
     let bounds = settings(&window).domain.bounds;
     assert_eq!((bounds.min.x, bounds.max.y), (100.0, 900.0));

@@ -14,7 +14,8 @@ use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, paint, send, step_until, wait_for_jobs, wait_until, window};
-use crate::app::command::{Command, DomainCommand, FileCommand};
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::DomainCommand;
 use meshbrush_io::io::project;
 
 const QUESTION: &str = "Save changes to “Radar threats”?";
@@ -94,7 +95,7 @@ fn names(folder: &Path) -> Vec<String> {
 fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
     let file = pipe(folder("read").join("coast.geojson"));
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
+    send(&mut window, Command::from(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0]").unwrap();
     assert!(!has_bar(&window, "Reading coast.geojson"), "not for a moment");
@@ -129,7 +130,7 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
 fn a_read_that_is_left_alone_is_opened() {
     let file = pipe(folder("whole").join("coast.geojson"));
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
+    send(&mut window, Command::from(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
     wait_until(&mut window, |window| has_bar(window, "Reading coast.geojson"));
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}").unwrap();
@@ -143,7 +144,7 @@ fn edits_are_asked_about_once_the_file_is_read() {
     let file = pipe(folder("asked").join("coast.geojson"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
+    send(&mut window, Command::from(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
     wait_until(&mut window, |window| has_bar(window, "Reading coast.geojson"));
     assert!(!shows(&window, QUESTION), "it is not clear yet that the file can be opened");
@@ -164,7 +165,7 @@ fn a_cancelled_export_leaves_the_former_files() {
     let last = pipe(folder.join("mesh.edge"));
     let before = names(&folder);
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Export(folder.join("mesh.node"))));
+    send(&mut window, Command::from(FileCommand::Export(folder.join("mesh.node"))));
     wait_until(&mut window, |window| has_bar(window, "Writing mesh.node"));
     // This waits until the last of the four files is being written.
     let mut last = File::open(&last).unwrap();
@@ -188,9 +189,9 @@ fn a_window_that_is_closed_while_the_document_is_saved_closes_when_it_is() {
         let mut window = window();
         paint(&mut window, 0.9);
         let painted = document(&window).paint().clone();
-        send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+        send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
         if by_key {
-            send(&mut window, Command::File(FileCommand::Quit));
+            send(&mut window, Command::from(FileCommand::Quit));
         } else {
             assert!(close(&mut window), "the file is not written yet");
             window.run();
@@ -211,7 +212,7 @@ fn edits_made_while_the_document_is_saved_are_asked_about_before_the_window_clos
     let file = pipe(folder("edited").join("a.meshbrush"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     assert!(close(&mut window));
     window.run();
     paint(&mut window, 0.8);
@@ -225,7 +226,7 @@ fn a_cancelled_save_leaves_the_document_unsaved_and_the_window_open() {
     let file = pipe(folder("cancelled").join("a.meshbrush"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     assert!(close(&mut window));
     window.run();
     cancel(&mut window, "Saving a.meshbrush");
@@ -244,10 +245,10 @@ fn what_is_saved_again_after_cancelling_is_saved() {
     let (slow, file) = (pipe(folder.join("slow.meshbrush")), folder.join("a.meshbrush"));
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::File(FileCommand::SaveTo(slow.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(slow.clone())));
     wait_until(&mut window, |window| has_bar(window, "Saving slow.meshbrush"));
     cancel(&mut window, "Saving slow.meshbrush");
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     let reader = std::thread::spawn(move || read_all(&slow));
     wait_until(&mut window, |window| shows(window, "a"));
     assert!(project::read(&file).is_ok());
@@ -258,14 +259,14 @@ fn what_is_saved_again_after_cancelling_is_saved() {
 fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left() {
     let file = folder("next").join("a.meshbrush");
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     wait_until(&mut window, |window| shows(window, "a"));
     fs::remove_file(&file).unwrap();
     let file = pipe(file);
     paint(&mut window, 0.9);
-    send(&mut window, Command::File(FileCommand::Save));
+    send(&mut window, Command::from(FileCommand::Save));
     paint(&mut window, 0.8);
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     // What is being saved lacks the last stroke.
     window.get_by_label("Save").click();
     window.run();
@@ -282,7 +283,7 @@ fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelle
     for cancelled in [false, true] {
         let file = pipe(folder(&format!("closing-{cancelled}")).join("mesh.csv"));
         let mut window = window();
-        send(&mut window, Command::File(FileCommand::Export(file.clone())));
+        send(&mut window, Command::from(FileCommand::Export(file.clone())));
         assert!(close(&mut window), "the file is not written yet");
         window.run();
         assert!(has_bar(&window, "Writing mesh.csv") && message(&window).contains("mesh.csv"));
@@ -303,7 +304,7 @@ fn a_window_that_is_closed_during_an_export_waits_for_it_or_until_it_is_cancelle
 fn an_export_that_fails_keeps_the_window_open_to_say_so() {
     let file = pipe(folder("failing").join("mesh.csv"));
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Export(file.clone())));
+    send(&mut window, Command::from(FileCommand::Export(file.clone())));
     assert!(close(&mut window));
     window.run();
     // Somebody reads a little of it and goes away.

@@ -32,7 +32,7 @@ fn shown_and_actual(window: &mut Window, world: DVec2) -> (String, i64) {
 fn as_shown(change: i64) -> String {
     match change {
         0 => "no change".into(),
-        _ => format!("{} triangles", crate::app::widgets::format::change(change)),
+        _ => format!("{} triangles", meshbrush_ui::widgets::format::change(change)),
     }
 }
 
@@ -50,7 +50,7 @@ fn the_brush_shows_its_price_before_the_click_and_the_price_is_true() {
     );
     let mut seen = BTreeSet::new();
     for tool in [&BRUSH, &ERASER] {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         for place in [FREE, FREE - dvec2(0.03, 0.02), dvec2(0.02, 0.97), FREE] {
             let (message, change) = shown_and_actual(&mut window, place);
             assert_eq!(message, as_shown(change), "{tool:?} at {place}");
@@ -67,10 +67,10 @@ fn the_price_is_asked_only_where_a_click_paints_a_dab() {
     let mut window = window();
     assert!(hover(&mut window, FREE).is_some());
     for tool in [&QUERY, &DOMAIN, &PAN] {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         assert_eq!(price_tag(&window), None, "{tool:?}");
     }
-    send(&mut window, Command::Shell(ShellCommand::Use(&BRUSH)));
+    send(&mut window, Command::from(ShellCommand::Use(&BRUSH)));
     assert!(price_tag(&window).is_some());
     window.event(Event::ModifiersChanged(Modifiers::ALT));
     window.run();
@@ -85,7 +85,7 @@ fn the_price_is_asked_only_where_a_click_paints_a_dab() {
     set(&mut window, Setting::RefinementRule(RefinementRule::Area));
     // A larger brush costs more, with the pointer where it is.
     let small = price_tag(&window).unwrap();
-    send(&mut window, Command::Brush(BrushCommand::Scale(2.0)));
+    send(&mut window, Command::from(BrushCommand::Scale(2.0)));
     assert_ne!(price_tag(&window).unwrap(), small);
 }
 
@@ -96,7 +96,7 @@ fn a_price_past_the_budget_says_so() {
     set(&mut window, Setting::MaxTriangles(count + 100));
     let tag = hover(&mut window, FREE).unwrap();
     assert!(tag.starts_with('+') && tag.ends_with(" triangles, over the budget"), "{tag}");
-    send(&mut window, Command::Shell(ShellCommand::Use(&ERASER)));
+    send(&mut window, Command::from(ShellCommand::Use(&ERASER)));
     assert!(!price_tag(&window).unwrap().contains("budget"));
 }
 
@@ -142,9 +142,9 @@ fn past_the_budget_the_message_says_so_and_undo_brings_the_mesh_back() {
 #[test]
 fn a_message_is_dismissed_by_its_cross_and_nothing_is_painted_under_it() {
     let mut window = window();
-    send(&mut window, Command::Edit(EditCommand::CancelUpdate));
+    send(&mut window, Command::from(EditCommand::CancelUpdate));
     assert_eq!(notice(&window), "", "there is no update to cancel");
-    send(&mut window, Command::Shell(ShellCommand::Report("It failed.".into())));
+    send(&mut window, Command::from(ShellCommand::Report("It failed.".into())));
     let (before, version) = (fingerprint(&window), window.state().session().document().version());
     window.get_by_label("Dismiss").click();
     window.run();

@@ -41,13 +41,13 @@ fn every_piece_of_the_boundary_of_the_celtic_sea_has_a_name() {
 #[test]
 fn the_celtic_sea_opens_with_its_depths_and_ends_them_with_the_next_example() {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::CelticSea)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::CelticSea)));
     assert_eq!(window.state().view().overlay, FieldOverlay::Depth);
     assert!((20_000..150_000).contains(&triangles(&window)), "{}", triangles(&window));
     let mesh = window.state().session().mesh();
     let depths = NodeDepths::of(&settings(&window).layers, mesh.extract().view()).unwrap().unwrap();
     let deepest = depths.depths.iter().copied().fold(0.0, f64::max);
     assert!((150.0..300.0).contains(&deepest), "{deepest} m in the south-west");
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Threats)));
     assert_eq!(window.state().view().overlay, FieldOverlay::None);
 }

@@ -27,7 +27,7 @@ fn commands_run_where_the_canvas_has_no_room() {
     window.set_size(vec2(1440.0, 30.0));
     window.run();
     assert!(canvas(&window).height() < 1.0, "{}", canvas(&window));
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!((fingerprint(&window), entries(&window)), (before, 0));
     key(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(entries(&window), 1, "keys too");
@@ -42,8 +42,8 @@ fn a_hidden_window_runs_commands_and_takes_its_last_input_once() {
     window.step();
     let ctx = window.ctx.clone();
     // eframe calls only `logic` then, with the input of the last frame.
-    window.state_mut().send(Command::Shell(ShellCommand::Use(all_tools(ROWS)[0])));
-    window.state_mut().send(Command::Edit(EditCommand::Undo));
+    window.state_mut().send(Command::from(ShellCommand::Use(all_tools(ROWS)[0])));
+    window.state_mut().send(Command::from(EditCommand::Undo));
     for _ in 0..50 {
         window.state_mut().advance(&ctx);
     }
@@ -56,7 +56,7 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
     let mut window = window_of(TALL);
     let overlay = |window: &super::Window| window.state().view().overlay;
     for _ in 0..2 {
-        send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
+        send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Risk)));
         assert_eq!(overlay(&window), FieldOverlay::Risk, "sent twice, it stays");
     }
     key(&mut window, Modifiers::NONE, Key::O);
@@ -74,7 +74,7 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
 #[test]
 fn the_status_bar_says_outside_between_the_polygons_and_their_bounds() {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     let bounds = window.state().session().document().settings().domain.bounds;
     let mesh = window.state().session().mesh();
     let grid = (1..40).flat_map(|i| (1..40).map(move |j| dvec2(f64::from(i), f64::from(j)) / 40.0));
@@ -90,7 +90,7 @@ fn the_status_bar_says_outside_between_the_polygons_and_their_bounds() {
 #[test]
 fn parts_and_holes_are_counted_for_every_boundary_treatment() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     key(&mut window, Modifiers::NONE, Key::D);
     open_section(&mut window, "Fit to outline");
     for treatment in ["As in report", "Fitted", "On outline"] {
@@ -112,7 +112,7 @@ fn every_tool_has_its_own_name_and_key_a_hint_and_its_tab() {
     assert_eq!((names.len(), keys.len()), (all_tools(ROWS).len(), all_tools(ROWS).len()));
     let mut window = window();
     for tool in all_tools(ROWS) {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         assert!(!window.state().tools().hint(&window.state().state(None)).is_empty(), "{tool:?}");
         if let Some(tab) = tool.tab {
             assert_eq!(window.state().view().dock.tab(), tab, "{tool:?}");

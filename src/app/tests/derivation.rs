@@ -7,9 +7,9 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 
 use super::{Window, key, send, show, wait_until, window};
-use crate::app::command::{
-    BrushCommand, Command, DomainCommand, EditCommand, LayerCommand, RegionCommand, RegionTarget,
-};
+use crate::app::command::{BrushCommand, Command, EditCommand, LayerCommand};
+use crate::app::features::domain::DomainCommand;
+use crate::app::features::regions::{RegionCommand, RegionTarget};
 use meshbrush_core::document::{Document, DrawnShape, Follower, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_core::outline::DerivedMesh;
@@ -87,12 +87,12 @@ fn draw_on_a_region(window: &mut Window, path: Vec<DVec2>, random: &mut Rng) {
         _ => RegionTarget::Mask,
     };
     let stroke = CutShape::Stroke { path, radius: 0.05 + 0.1 * random.f64() };
-    send(window, Command::Layer(LayerCommand::Select(layer)));
-    send(window, Command::Region(RegionCommand::Target(target)));
-    send(window, Command::Region(RegionCommand::Draw(DrawnShape::Area(stroke), random.u32(..3) > 0)));
-    send(window, Command::Edit(EditCommand::EndGesture));
+    send(window, Command::from(LayerCommand::Select(layer)));
+    send(window, Command::from(RegionCommand::Target(target)));
+    send(window, Command::from(RegionCommand::Draw(DrawnShape::Area(stroke), random.u32(..3) > 0)));
+    send(window, Command::from(EditCommand::EndGesture));
     // The strokes of the brush go on.
-    send(window, Command::Layer(LayerCommand::Select(painted)));
+    send(window, Command::from(LayerCommand::Select(painted)));
 }
 
 #[test]
@@ -107,17 +107,17 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
         match random.u32(..8) {
             0 => {
                 let cut_shape = CutShape::Stroke { path: vec![a], radius: 0.05 + 0.1 * random.f64() };
-                send(&mut window, Command::Domain(DomainCommand::Reshape(cut_shape, random.bool())));
-                send(&mut window, Command::Edit(EditCommand::EndGesture));
+                send(&mut window, Command::from(DomainCommand::Reshape(cut_shape, random.bool())));
+                send(&mut window, Command::from(EditCommand::EndGesture));
             }
             1 => key(&mut window, Modifiers::COMMAND, Key::Z),
             2 | 3 => draw_on_a_region(&mut window, vec![a, b], &mut random),
             _ => {
-                window.state_mut().send(Command::Brush(BrushCommand::BeginStroke(a)));
+                window.state_mut().send(Command::from(BrushCommand::BeginStroke(a)));
                 for step in 0..=4 {
                     window
                         .state_mut()
-                        .send(Command::Brush(BrushCommand::DrawTo(a.lerp(b, f64::from(step) / 4.0))));
+                        .send(Command::from(BrushCommand::DrawTo(a.lerp(b, f64::from(step) / 4.0))));
                     window.step();
                     let pieces = window.state().session().derivation().pieces();
                     some_retired += usize::from(pieces.triangles().iter().any(|piece| piece.is_outside()));
@@ -126,7 +126,7 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
                         compared += 1;
                     }
                 }
-                window.state_mut().send(Command::Brush(BrushCommand::EndStroke));
+                window.state_mut().send(Command::from(BrushCommand::EndStroke));
             }
         }
         if random.bool() {
@@ -166,16 +166,16 @@ fn what_cleaning_removed_stays_removed_in_a_stroke() {
     };
     assert!(!drawn(&window).iter().any(in_pond), "the pond is removed");
     let before = drawn(&window).len();
-    window.state_mut().send(Command::Brush(BrushCommand::BeginStroke(dvec2(0.0, -1.0))));
+    window.state_mut().send(Command::from(BrushCommand::BeginStroke(dvec2(0.0, -1.0))));
     for step in 0..10 {
         let to = dvec2(0.09 * f64::from(step), -1.0 + 0.02 * f64::from(step));
-        window.state_mut().send(Command::Brush(BrushCommand::DrawTo(to)));
+        window.state_mut().send(Command::from(BrushCommand::DrawTo(to)));
         window.step();
         assert!(window.state().session().derivation().shows_coast(window.state().session().follower()));
         assert!(!drawn(&window).iter().any(in_pond), "the pond is drawn in a stroke");
     }
     assert_ne!(drawn(&window).len(), before, "the stroke changes the mesh");
-    window.state_mut().send(Command::Brush(BrushCommand::EndStroke));
+    window.state_mut().send(Command::from(BrushCommand::EndStroke));
     wait_until(&mut window, is_derived);
     assert!(drawn(&window) == from_scratch(window.state().session().document()));
 }

@@ -12,9 +12,12 @@ use super::{
     window, window_of,
 };
 use crate::app::catalog::{PLACES, catalog};
-use crate::app::command::{Command, InspectCommand, PlotKind, PlotsCommand, ShellCommand, StepCommand};
+use crate::app::command::{Command, ShellCommand};
 use crate::app::dock::Dock;
 use crate::app::features::ROWS;
+use crate::app::features::inspection::InspectCommand;
+use crate::app::features::plots::{PlotKind, PlotsCommand};
+use crate::app::features::stepping::StepCommand;
 use crate::app::kit::{Menu, Tab, all_tools};
 use crate::app::panels;
 
@@ -63,11 +66,11 @@ fn a_tool_selects_its_tab_unless_another_was_chosen_since() {
 #[test]
 fn a_panel_that_is_asked_for_comes_with_its_tab() {
     let mut window = window();
-    send(&mut window, Command::Plots(PlotsCommand::Show(PlotKind::Triangles)));
+    send(&mut window, Command::from(PlotsCommand::Show(PlotKind::Triangles)));
     assert_eq!(tab(&window), Tab::Mesh);
     let export = window.get_by_role_and_label(Role::Button, "Export plot…").rect();
     assert!(export.bottom() <= canvas(&window).bottom() && export.top() > bar(&window).bottom(), "{export}");
-    send(&mut window, Command::Inspect(InspectCommand::Query(super::FREE)));
+    send(&mut window, Command::from(InspectCommand::Query(super::FREE)));
     assert_eq!(tab(&window), Tab::Inspect);
 }
 
@@ -87,7 +90,7 @@ fn sections_stay_in_their_places_whatever_the_tool() {
     let before = order(&mut window);
     assert!(before.iter().all(|titles| titles.len() > 2), "{before:?}");
     for tool in all_tools(ROWS) {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         assert_eq!(order(&mut window), before, "{tool:?}");
     }
 }
@@ -97,7 +100,7 @@ fn the_layers_and_the_selected_layer_are_in_sight_with_every_tool_and_tab() {
     for size in [vec2(1280.0, 720.0), vec2(1440.0, 900.0), vec2(2560.0, 1440.0)] {
         let mut window = window_of(size);
         for tool in all_tools(ROWS) {
-            send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+            send(&mut window, Command::from(ShellCommand::Use(tool)));
             for title in ["Layers", "Selected layer"] {
                 let header = section(&window, title).expect("the section").rect();
                 assert!(header.bottom() < bar(&window).top(), "{title} at {header} with {tool:?}");
@@ -159,7 +162,7 @@ fn options_without_room_are_in_a_popup() {
 fn every_option_of_a_usual_window_is_on_the_strip() {
     let mut window = window_of(vec2(1440.0, 900.0));
     for tool in all_tools(ROWS) {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         let state = window.state().state(None);
         let shown = tool.options.iter().filter(|item| item.rank.is_some() && (item.is_shown)(&state));
         let width: f32 = shown.map(|item| item.width + 8.0).sum();
@@ -213,10 +216,10 @@ fn menus_are_short_and_the_palette_has_everything() {
         assert_eq!(palette, &titles | &places, "{what}");
     };
     for tool in all_tools(ROWS) {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         check(&mut window, tool.name);
     }
-    send(&mut window, Command::Steps(StepCommand::Begin(None)));
+    send(&mut window, Command::from(StepCommand::Begin(None)));
     check(&mut window, "steps");
 }
 

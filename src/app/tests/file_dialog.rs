@@ -13,11 +13,11 @@ use super::{
     window, window_with,
 };
 use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::widgets::format;
 use meshbrush_core::document::Example;
 use meshbrush_io::io::project;
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::ExportFormat;
+use meshbrush_ui::widgets::format;
 
 /// Returns a folder with files and folders.
 fn folder(name: &str) -> PathBuf {
@@ -205,7 +205,7 @@ fn an_export_proposes_a_name_and_says_what_it_writes() {
     assert!(!is_open(&window));
 
     // A name that is there is asked about over the dialog, which stays.
-    send(&mut window, Command::Shell(ShellCommand::Escape));
+    send(&mut window, Command::from(ShellCommand::Escape));
     key(&mut window, Modifiers::COMMAND, Key::E);
     key(&mut window, Modifiers::COMMAND, Key::A);
     type_text(&mut window, "mesh.node");
@@ -222,7 +222,7 @@ fn the_sizes_of_exports_are_about_right() {
     let folder = folder("sizes");
     for example in [Example::Threats, Example::Aegean] {
         let mut window = window();
-        send(&mut window, Command::File(FileCommand::OpenExample(example)));
+        send(&mut window, Command::from(FileCommand::OpenExample(example)));
         wait_until(&mut window, |window| {
             window.state().session().document().settings().domain.region().is_none()
                 || window.state().session().derived().is_some()
@@ -235,9 +235,9 @@ fn the_sizes_of_exports_are_about_right() {
                 continue; // it holds degrees only
             }
             let file = folder.join(format!("{example:?}.{}", format.ending()));
-            send(&mut window, Command::File(FileCommand::Export(file.clone())));
+            send(&mut window, Command::from(FileCommand::Export(file.clone())));
             wait_for_notice(&mut window);
-            send(&mut window, Command::Shell(ShellCommand::Escape));
+            send(&mut window, Command::from(ShellCommand::Escape));
             let bytes: u64 = format.files(&file).iter().map(|file| fs::metadata(file).unwrap().len()).sum();
             let ratio = about as f64 / bytes as f64;
             assert!((0.6..1.5).contains(&ratio), "{format:?}: {about} instead of {bytes} bytes");
@@ -278,7 +278,7 @@ fn an_export_says_what_its_coordinates_are() {
         (Example::CelticSea, "Coordinates are longitudes and latitudes in degrees."),
         (Example::Terrain, "Coordinates are in kilometres."),
     ] {
-        send(&mut window, Command::File(FileCommand::OpenExample(example)));
+        send(&mut window, Command::from(FileCommand::OpenExample(example)));
         assert!(says(&mut window, sentence), "{}", example.name());
     }
 }
@@ -287,7 +287,7 @@ fn an_export_says_what_its_coordinates_are() {
 fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
     let folder = folder("beside");
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Open(folder.join("coasts/north.geojson"))));
+    send(&mut window, Command::from(FileCommand::Open(folder.join("coasts/north.geojson"))));
     answer(&mut window);
     wait_until(&mut window, |window| document(window).settings().name == "north");
     key(&mut window, Modifiers::COMMAND, Key::S);
@@ -316,7 +316,7 @@ fn tab_completes_what_was_typed_and_otherwise_goes_on_whatever_the_list_has() {
     let folder = folder("tab");
     fs::write(folder.join("coasts/north.meshbrush"), "a project").unwrap();
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Open(folder.join("coasts/north.geojson"))));
+    send(&mut window, Command::from(FileCommand::Open(folder.join("coasts/north.geojson"))));
     answer(&mut window);
     wait_until(&mut window, |window| document(window).settings().name == "north");
     key(&mut window, Modifiers::COMMAND, Key::S);

@@ -18,16 +18,16 @@ fn an_export_writes_the_file_and_tells() {
     for ending in ["vtu", "msh", "svg", "png"] {
         let file = scratch(&format!("app-export.{ending}"));
         let _ = std::fs::remove_file(&file); // absent at the first run
-        send(&mut window, Command::File(FileCommand::Export(file.clone())));
+        send(&mut window, Command::from(FileCommand::Export(file.clone())));
         let message = wait_for_notice(&mut window);
         assert!(message.contains("triangles written to") && message.contains(ending), "{message}");
         assert!(std::fs::metadata(&file).unwrap().len() > 100_000);
-        send(&mut window, Command::Shell(ShellCommand::Escape));
+        send(&mut window, Command::from(ShellCommand::Escape));
     }
-    send(&mut window, Command::File(FileCommand::Export(scratch("app-export.doc"))));
+    send(&mut window, Command::from(FileCommand::Export(scratch("app-export.doc"))));
     assert!(wait_for_notice(&mut window).contains(".vtu"));
-    send(&mut window, Command::Shell(ShellCommand::Escape));
-    send(&mut window, Command::File(FileCommand::Export(scratch("no such folder/mesh.vtu"))));
+    send(&mut window, Command::from(ShellCommand::Escape));
+    send(&mut window, Command::from(FileCommand::Export(scratch("no such folder/mesh.vtu"))));
     assert!(wait_for_notice(&mut window).contains("could not be written: there is no folder"));
     stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
     assert!(notice(&window).contains("no folder"), "what failed stays");
@@ -36,16 +36,16 @@ fn an_export_writes_the_file_and_tells() {
 #[test]
 fn an_export_counts_the_triangles_of_the_file() {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     wait_until(&mut window, |window| window.state().session().derived().is_some());
     let file = scratch("app-export-coast.obj");
     let _ = std::fs::remove_file(&file); // absent at the first run
-    send(&mut window, Command::File(FileCommand::Export(file.clone())));
+    send(&mut window, Command::from(FileCommand::Export(file.clone())));
     let message = wait_for_notice(&mut window);
     let written =
         std::fs::read_to_string(&file).unwrap().lines().filter(|line| line.starts_with("f ")).count();
     assert_ne!(written, window.state().session().mesh().triangle_count(), "nodes are on the coast");
-    let count = crate::app::widgets::format::count(written as u64);
+    let count = meshbrush_ui::widgets::format::count(written as u64);
     assert!(message.starts_with(&format!("{count} triangles written to")), "{written}: {message}");
 }
 
@@ -61,10 +61,10 @@ fn an_export_asks_before_it_replaces_any_of_its_files() {
         window.get_by_role_and_label(Role::Button, label).click();
         window.run();
     };
-    send(&mut window, Command::File(FileCommand::ExportAs(nodes.clone())));
+    send(&mut window, Command::from(FileCommand::ExportAs(nodes.clone())));
     button(&mut window, "Cancel");
     assert_eq!((notice(&window).as_str(), nodes.exists()), ("", false));
-    send(&mut window, Command::File(FileCommand::ExportAs(nodes.clone())));
+    send(&mut window, Command::from(FileCommand::ExportAs(nodes.clone())));
     assert!(window.query_by_label_contains("app-replace.ele?").is_some(), "the one that is there");
     button(&mut window, "Replace");
     assert!(wait_for_notice(&mut window).contains("triangles written to"));
@@ -93,14 +93,14 @@ fn a_bad_picture_is_told_and_a_good_one_becomes_risk() {
     let before = fingerprint(&window);
     let bad = scratch("app-bad.png");
     std::fs::write(&bad, b"no picture").unwrap();
-    send(&mut window, Command::Layer(LayerCommand::OpenImage(bad)));
+    send(&mut window, Command::from(LayerCommand::OpenImage(bad)));
     let message = wait_for_notice(&mut window);
     assert!(message.contains("app-bad.png"), "{message}");
     assert_eq!(fingerprint(&window), before);
-    send(&mut window, Command::Shell(ShellCommand::Escape));
+    send(&mut window, Command::from(ShellCommand::Escape));
 
     let good = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/jacksboro_slope.png");
-    send(&mut window, Command::Layer(LayerCommand::OpenImage(good.into())));
+    send(&mut window, Command::from(LayerCommand::OpenImage(good.into())));
     wait_until(&mut window, |window| fingerprint(window) != before);
     assert!(has_raster(&window, &RasterReading::Risk));
 }

@@ -7,8 +7,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{painted_radii, painted_texts};
-use crate::app::theme;
-use crate::app::widgets::*;
+use meshbrush_ui::theme;
+use meshbrush_ui::widgets::*;
 
 /// Everything that the gallery's controls edit.
 struct State {

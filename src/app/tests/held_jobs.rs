@@ -7,8 +7,11 @@ use eframe::egui::{Key, Modifiers};
 use fastrand::Rng;
 
 use super::{TALL, Window, document, folder, open_section, window, window_of};
-use crate::app::command::{Command, DomainCommand, FileCommand, LayerCommand, ThreatsCommand, ViewCommand};
-use crate::app::features::plots::PlotsCommand;
+use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
+use crate::app::features::domain::DomainCommand;
+use crate::app::features::plots::{Plots, PlotsCommand};
+use crate::app::features::statistics::Statistics;
+use crate::app::features::threats::ThreatsCommand;
 use crate::app::jobs::Kind;
 use crate::app::view::CanvasAid;
 use meshbrush_io::io::project;
@@ -25,7 +28,7 @@ fn send_and_step(window: &mut Window, command: Command) {
 
 /// Shows contour lines, or hides them.
 fn show_contours() -> Command {
-    Command::View(ViewCommand::ToggleAid(CanvasAid::Contours))
+    Command::from(ViewCommand::ToggleAid(CanvasAid::Contours))
 }
 
 /// Delivers all that jobs have sent and still send, each time from one of them.
@@ -56,12 +59,12 @@ fn whatever_the_order_in_which_files_are_done_the_next_document_stays_new() {
         let (saved, table) = (folder.join("a.meshbrush"), written(&folder, "threats.csv", THREATS));
         let square = written(&folder, "square.geojson", SQUARE);
         let mut commands = [
-            Command::File(FileCommand::SaveTo(saved.clone())),
-            Command::File(FileCommand::Export(folder.join("mesh.csv"))),
-            Command::Threats(ThreatsCommand::Open(table)),
-            Command::Layer(LayerCommand::OpenMask(square.clone())),
-            Command::Layer(LayerCommand::OpenShapes(square.clone())),
-            Command::Domain(DomainCommand::AddOutline(square)),
+            Command::from(FileCommand::SaveTo(saved.clone())),
+            Command::from(FileCommand::Export(folder.join("mesh.csv"))),
+            Command::from(ThreatsCommand::Open(table)),
+            Command::from(LayerCommand::OpenMask(square.clone())),
+            Command::from(LayerCommand::OpenShapes(square.clone())),
+            Command::from(DomainCommand::AddOutline(square)),
         ];
         random.shuffle(&mut commands);
         commands.into_iter().for_each(|command| send_and_step(&mut window, command));
@@ -91,14 +94,18 @@ fn whatever_the_order_in_which_jobs_are_done_the_next_document_shows_its_own_fig
         for _ in 0..random.usize(..5) {
             window.step();
         }
-        send_and_step(&mut window, Command::File(FileCommand::New));
+        send_and_step(&mut window, Command::from(FileCommand::New));
         release_all(&mut window, &mut random);
         let session = window.state().session();
         let features = window.state().features();
-        let (figures, is_current) = features.statistics.figures(session).expect("the statistics are shown");
+        let (figures, is_current) =
+            features.get::<Statistics>().figures(session).expect("the statistics are shown");
         assert!(is_current, "seed {seed}");
         assert_eq!(figures.fingerprint, session.mesh().fingerprint().to_string(), "seed {seed}");
-        assert!(features.plots.plot(session).is_some_and(|(_, is_current)| is_current), "seed {seed}");
+        assert!(
+            features.get::<Plots>().plot(session).is_some_and(|(_, is_current)| is_current),
+            "seed {seed}"
+        );
     }
 }
 
@@ -129,7 +136,7 @@ fn no_thread_outlives_the_window() {
     let jobs = window.state().jobs.clone();
     jobs.hold();
     send_and_step(&mut window, show_contours());
-    send_and_step(&mut window, Command::Plots(PlotsCommand::Measure));
+    send_and_step(&mut window, Command::from(PlotsCommand::Measure));
     drop(window);
     jobs.wait_for_threads();
 }

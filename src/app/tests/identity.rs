@@ -9,10 +9,11 @@ use std::process;
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, notice, paint, send, wait_until, window};
-use crate::app::command::{
-    Command, DomainCommand, FileCommand, LayerCommand, PictureCommand, ThreatsCommand,
-};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::features::domain::DomainCommand;
 use crate::app::features::paths::{KeepOutCommand, PathCommand};
+use crate::app::features::picture::PictureCommand;
+use crate::app::features::threats::ThreatsCommand;
 use meshbrush_io::io::project;
 
 const SQUARE: &str =
@@ -31,25 +32,25 @@ fn pipe(test: &str, name: &str) -> PathBuf {
 }
 
 fn new_document(window: &mut Window) {
-    send(window, Command::File(FileCommand::New));
+    send(window, Command::from(FileCommand::New));
     wait_until(window, |window| document(window).history().is_empty());
     assert_eq!(notice(window), "");
 }
 
 #[test]
 fn what_is_read_for_one_document_does_not_change_the_next_one() {
-    let keep_out = |path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path)));
+    let keep_out = |path| Command::from(PathCommand::KeepOut(KeepOutCommand::Open(path)));
     let cases: [Case<'_>; 10] = [
-        ("mask.geojson", SQUARE.as_bytes(), |path| Command::Layer(LayerCommand::OpenMask(path))),
-        ("outline.geojson", SQUARE.as_bytes(), |path| Command::Domain(DomainCommand::AddOutline(path))),
-        ("shapes.geojson", SQUARE.as_bytes(), |path| Command::Layer(LayerCommand::OpenShapes(path))),
-        ("other.geojson", SQUARE.as_bytes(), |path| Command::Layer(LayerCommand::ReplaceShapes(path))),
+        ("mask.geojson", SQUARE.as_bytes(), |path| Command::from(LayerCommand::OpenMask(path))),
+        ("outline.geojson", SQUARE.as_bytes(), |path| Command::from(DomainCommand::AddOutline(path))),
+        ("shapes.geojson", SQUARE.as_bytes(), |path| Command::from(LayerCommand::OpenShapes(path))),
+        ("other.geojson", SQUARE.as_bytes(), |path| Command::from(LayerCommand::ReplaceShapes(path))),
         ("region.geojson", SQUARE.as_bytes(), keep_out),
-        ("threats.csv", THREATS.as_bytes(), |path| Command::Threats(ThreatsCommand::Open(path))),
-        ("risk.asc", GRID.as_bytes(), |path| Command::Layer(LayerCommand::OpenImage(path))),
-        ("diameters.asc", GRID.as_bytes(), |path| Command::Layer(LayerCommand::OpenDiameters(path))),
-        ("band.asc", GRID.as_bytes(), |path| Command::Layer(LayerCommand::OpenBand(path))),
-        ("traced.png", PICTURE, |path| Command::Picture(PictureCommand::Open(path))),
+        ("threats.csv", THREATS.as_bytes(), |path| Command::from(ThreatsCommand::Open(path))),
+        ("risk.asc", GRID.as_bytes(), |path| Command::from(LayerCommand::OpenImage(path))),
+        ("diameters.asc", GRID.as_bytes(), |path| Command::from(LayerCommand::OpenDiameters(path))),
+        ("band.asc", GRID.as_bytes(), |path| Command::from(LayerCommand::OpenBand(path))),
+        ("traced.png", PICTURE, |path| Command::from(PictureCommand::Open(path))),
     ];
     let mut window = window();
     for (name, content, command) in cases {
@@ -73,7 +74,7 @@ fn a_save_that_ends_in_another_document_does_not_give_it_the_file() {
     let file = pipe("saved", "a.meshbrush");
     let mut window = window();
     let saved = document(&window).settings().clone();
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     new_document(&mut window);
     paint(&mut window, 0.3);
     let written = fs::read(&file).unwrap();
@@ -82,7 +83,7 @@ fn a_save_that_ends_in_another_document_does_not_give_it_the_file() {
     assert_eq!(project::from_bytes(&written, Path::new("a")).unwrap().settings, saved);
     assert!(window.query_by_label("Untitled — edited").is_some());
     // The new document has no file: it is asked for one.
-    send(&mut window, Command::File(FileCommand::Save));
+    send(&mut window, Command::from(FileCommand::Save));
     assert!(window.query_by_label("Save project").is_some());
 }
 
@@ -91,16 +92,16 @@ fn a_document_that_is_saved_while_the_former_one_is_has_its_own_file() {
     let slow = pipe("both", "a.meshbrush");
     let own = slow.with_file_name("b.meshbrush");
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::SaveTo(slow.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(slow.clone())));
     // A second save of the former document waits behind the first one, and is given up with it.
     paint(&mut window, 0.9);
-    send(&mut window, Command::File(FileCommand::SaveTo(slow.with_file_name("c.meshbrush"))));
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::SaveTo(slow.with_file_name("c.meshbrush"))));
+    send(&mut window, Command::from(FileCommand::New));
     window.get_by_label("Do not save").click();
     window.run();
     paint(&mut window, 0.3);
     let painted = document(&window).paint().clone();
-    send(&mut window, Command::File(FileCommand::SaveTo(own.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(own.clone())));
     fs::read(&slow).unwrap();
     wait_until(&mut window, |window| window.query_by_label("b").is_some());
     assert!(*project::read(&own).unwrap().paint() == painted);
@@ -111,7 +112,7 @@ fn a_document_that_is_saved_while_the_former_one_is_has_its_own_file() {
 fn a_file_that_is_a_document_of_its_own_is_opened_all_the_same() {
     let file = pipe("opened", "coast.geojson");
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
+    send(&mut window, Command::from(DomainCommand::Open(file.clone())));
     let mut writer = File::options().write(true).open(&file).unwrap();
     new_document(&mut window);
     writer.write_all(SQUARE.as_bytes()).unwrap();

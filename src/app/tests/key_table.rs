@@ -12,15 +12,15 @@ use glam::dvec2;
 
 use super::{FREE, Kept, Window, choose, folder, key, notice, send, wait_until, window};
 use crate::app::catalog::catalog;
-use crate::app::command::{
-    Command, DomainCommand, FileCommand, InspectCommand, LayerCommand, PinsCommand, ShellCommand,
-    SpaceCommand, StepCommand, ThreatsCommand, ViewCommand,
-};
+use crate::app::command::{Command, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::features::ROWS;
-use crate::app::features::domain::DomainToolMode;
+use crate::app::features::domain::{DomainCommand, DomainToolMode};
+use crate::app::features::inspection::InspectCommand;
 use crate::app::features::painting::{BRUSH, ERASER};
 use crate::app::features::paths::PathCommand;
-use crate::app::features::threats::THREATS;
+use crate::app::features::pins::PinsCommand;
+use crate::app::features::stepping::StepCommand;
+use crate::app::features::threats::{THREATS, ThreatsCommand};
 use crate::app::kit::{CatalogItem, all_tools, conflicts, same_keys, shortcut_text};
 use meshbrush_core::layers::{LayerId, LayerKind, Threats};
 
@@ -49,51 +49,51 @@ pub fn states() -> &'static [State] {
 /// Brings the window into each combination of tool, mode and selection, and calls `look` in each.
 pub fn in_every_state(look: &mut dyn FnMut(&mut Window, &str)) {
     let mut window = window();
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
     let select = [
         // A triangle with a parent, and a layer between others: most entries are enabled.
-        Command::Layer(LayerCommand::Select(LayerId(1))),
-        Command::Inspect(InspectCommand::Query(dvec2(0.245, 0.765))),
-        Command::Pins(PinsCommand::Add(FREE)),
-        Command::Pins(PinsCommand::Select(0)),
-        Command::Threats(ThreatsCommand::Place(FREE)),
-        Command::Path(PathCommand::StartAt(dvec2(0.1, 0.1))),
-        Command::Path(PathCommand::GoalAt(dvec2(0.9, 0.9))),
+        Command::from(LayerCommand::Select(LayerId(1))),
+        Command::from(InspectCommand::Query(dvec2(0.245, 0.765))),
+        Command::from(PinsCommand::Add(FREE)),
+        Command::from(PinsCommand::Select(0)),
+        Command::from(ThreatsCommand::Place(FREE)),
+        Command::from(PathCommand::StartAt(dvec2(0.1, 0.1))),
+        Command::from(PathCommand::GoalAt(dvec2(0.9, 0.9))),
     ];
     for (number, tool) in all_tools(ROWS).into_iter().enumerate() {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         look(&mut window, tool.name);
         for command in select.iter().take(if number == 0 { 7 } else { 5 }) {
             send(&mut window, command.clone());
-            send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+            send(&mut window, Command::from(ShellCommand::Use(tool)));
             look(&mut window, tool.name);
         }
     }
     // Modes of tools, which select their tool.
     for item in entries(&window).into_iter().filter(|item| item.is_above && item.enabled) {
-        if !matches!(item.command, Command::File(_) | Command::Path(_)) {
+        if item.command.get::<FileCommand>().is_none() && item.command.get::<PathCommand>().is_none() {
             send(&mut window, item.command);
             look(&mut window, &item.title);
         }
     }
     for corner in [dvec2(0.1, 0.1), dvec2(0.3, 0.1), dvec2(0.2, 0.3)] {
-        send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
-        send(&mut window, Command::Domain(DomainCommand::AddCorner(corner)));
+        send(&mut window, Command::from(DomainCommand::Mode(DomainToolMode::Polygon)));
+        send(&mut window, Command::from(DomainCommand::AddCorner(corner)));
         look(&mut window, "a polygon");
     }
-    send(&mut window, Command::Shell(ShellCommand::Escape));
-    send(&mut window, Command::Steps(StepCommand::Begin(None)));
+    send(&mut window, Command::from(ShellCommand::Escape));
+    send(&mut window, Command::from(StepCommand::Begin(None)));
     wait_until(&mut window, |window| {
         entries(window).iter().any(|item| item.title == "Next step" && item.enabled)
     });
     look(&mut window, "steps");
-    send(&mut window, Command::Shell(ShellCommand::Escape));
+    send(&mut window, Command::from(ShellCommand::Escape));
     for (name, command) in [
-        ("presentation", Command::View(ViewCommand::TogglePresentation)),
-        ("presentation with a panel", Command::View(ViewCommand::TogglePanels)),
-        ("in space", Command::View(ViewCommand::Space(SpaceCommand::Toggle))),
-        ("a new document", Command::File(FileCommand::New)),
-        ("the help", Command::Shell(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys))),
+        ("presentation", Command::from(ViewCommand::TogglePresentation)),
+        ("presentation with a panel", Command::from(ViewCommand::TogglePanels)),
+        ("in space", Command::from(ViewCommand::Space(SpaceCommand::Toggle))),
+        ("a new document", Command::from(FileCommand::New)),
+        ("the help", Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys))),
     ] {
         send(&mut window, command);
         look(&mut window, name);
@@ -211,7 +211,7 @@ fn brush_and_layers_follow_their_keys_without_brackets() {
     let order =
         |window: &Window| -> Vec<_> { super::settings(window).layers.iter().map(|layer| layer.id).collect() };
     let layers = order(&window);
-    send(&mut window, Command::Layer(LayerCommand::Select(layers[0])));
+    send(&mut window, Command::from(LayerCommand::Select(layers[0])));
     key(&mut window, Modifiers::COMMAND, Key::ArrowUp);
     assert_eq!(order(&window)[1], layers[0]);
     key(&mut window, Modifiers::COMMAND, Key::ArrowDown);
@@ -225,7 +225,7 @@ fn press(window: &mut Window, button: &str) {
 
 /// Opens the list of keys, and in it the keys of an entry.
 fn open_keys_of(window: &mut Window, row: &str) {
-    send(window, Command::Shell(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys)));
+    send(window, Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys)));
     let search = window.get_by_role_and_label(Role::TextInput, "Search for a key");
     search.focus();
     window.run();
@@ -251,7 +251,7 @@ fn a_key_is_added_taken_from_another_entry_and_shown_everywhere() {
     assert!(window.query_by_label("Q belongs to “Query”.").is_some());
     press(&mut window, "Move the key here");
     press(&mut window, "Remove E");
-    send(&mut window, Command::Shell(ShellCommand::CloseHelp));
+    send(&mut window, Command::from(ShellCommand::CloseHelp));
     key(&mut window, Modifiers::NONE, Key::E);
     assert_eq!(window.state().tools().tool, &BRUSH);
     key(&mut window, Modifiers::NONE, Key::Q);
@@ -264,7 +264,7 @@ fn a_key_is_added_taken_from_another_entry_and_shown_everywhere() {
     key(&mut window, Modifiers::NONE, Key::Escape);
     open_keys_of(&mut window, "Eraser Q");
     press(&mut window, "Reset all keys");
-    send(&mut window, Command::Shell(ShellCommand::CloseHelp));
+    send(&mut window, Command::from(ShellCommand::CloseHelp));
     key(&mut window, Modifiers::NONE, Key::Q);
     assert_ne!(window.state().tools().tool, &ERASER);
 }
@@ -294,7 +294,7 @@ fn remarks_show_the_key_that_works() {
     assert!(says(&window, "with the query tool (Q):"));
     open_keys_of(&mut window, "Query Q");
     press(&mut window, "Remove Q");
-    send(&mut window, Command::Shell(ShellCommand::CloseHelp));
+    send(&mut window, Command::from(ShellCommand::CloseHelp));
     assert!(says(&window, "with the query tool:"), "an entry without a key");
 }
 
@@ -329,15 +329,15 @@ fn changed_keys_are_exported_and_imported_as_differences() {
     }
     let mut kept = Kept::default();
     window.state_mut().save(&mut kept);
-    send(&mut window, Command::Shell(ShellCommand::ExportKeysAs(file.clone())));
+    send(&mut window, Command::from(ShellCommand::ExportKeysAs(file.clone())));
     wait_until(&mut window, |window| notice(window).contains("written"));
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(text.contains("\"eraser\": []") && !text.contains("brush\":"), "{text}");
     press(&mut window, "Reset all keys");
-    send(&mut window, Command::Shell(ShellCommand::ImportKeys(file.clone())));
+    send(&mut window, Command::from(ShellCommand::ImportKeys(file.clone())));
     wait_until(&mut window, |window| window.state().keymap.changes("eraser"));
     std::fs::write(&file, text.replace("[]", "[\"Hyper+Q\"]")).unwrap();
-    send(&mut window, Command::Shell(ShellCommand::ImportKeys(file)));
+    send(&mut window, Command::from(ShellCommand::ImportKeys(file)));
     wait_until(&mut window, |window| notice(window).contains("Hyper+Q"));
     assert!(window.state().keymap.changes("eraser"), "a file with a mistake changes nothing");
     let mut next = super::window();
@@ -352,17 +352,17 @@ fn an_entry_of_two_owners_is_reported_in_the_list() {
         r#"{"format": "meshbrush keys", "version": 1, "keys": {"eraser": ["B"], "unknown-entry": ["A"]}}"#;
     let keymap = crate::app::kit::Keymap::parse(text).unwrap();
     assert!(keymap.to_text().contains("unknown-entry"), "of another version, and kept");
-    send(&mut window, Command::Shell(ShellCommand::SetKeys(keymap)));
-    send(&mut window, Command::Shell(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys)));
+    send(&mut window, Command::from(ShellCommand::SetKeys(keymap)));
+    send(&mut window, Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys)));
     assert!(window.query_by_label("B belongs to “Brush” and to “Eraser”.").is_some());
 }
 
 #[test]
 fn the_threats_tool_keeps_its_key_while_a_threat_is_selected() {
     let mut window = window();
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
-    send(&mut window, Command::Shell(ShellCommand::Use(&THREATS)));
-    send(&mut window, Command::Threats(ThreatsCommand::Place(FREE)));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
+    send(&mut window, Command::from(ShellCommand::Use(&THREATS)));
+    send(&mut window, Command::from(ThreatsCommand::Place(FREE)));
     key(&mut window, Modifiers::NONE, Key::Delete);
     let threats = super::settings(&window).layers.iter().find_map(|layer| match &layer.kind {
         LayerKind::Threats(threats) => Some(threats.list().len()),

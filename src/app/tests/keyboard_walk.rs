@@ -9,8 +9,9 @@ use egui_kittest::kittest::{AccessKitNode, By, NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{TALL, Window, click, open_tab, send, wait_for_jobs, window_of};
-use crate::app::command::{Command, FileCommand, ShellCommand, StepCommand};
+use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::report::FigureCommand;
+use crate::app::features::stepping::StepCommand;
 use crate::app::kit::{Tab, ToolSpec};
 use meshbrush_core::document::Example;
 use meshbrush_study::report::ReportFigure;
@@ -129,10 +130,10 @@ fn tools() -> Vec<&'static ToolSpec> {
 #[test]
 fn every_control_has_a_role_and_a_name_and_is_reached_by_tab() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Path)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Path)));
     wait_for_jobs(&mut window);
     for tool in tools() {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         if tool.name == "Query" {
             click(&mut window, dvec2(0.4, 0.4), Modifiers::NONE);
         }
@@ -147,7 +148,7 @@ fn every_control_has_a_role_and_a_name_and_is_reached_by_tab() {
 #[test]
 fn every_control_of_every_tab_is_reached_by_tab() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Layers)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Layers)));
     wait_for_jobs(&mut window);
     for tab in Tab::LOWER {
         if window.query_by_role_and_label(Role::Tab, tab.name()).is_some() {
@@ -164,10 +165,10 @@ fn every_control_of_every_tab_is_reached_by_tab() {
 #[test]
 fn every_control_of_the_steps_and_of_a_figure_is_reached_by_tab() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Figure(FigureCommand::Open(ReportFigure::Descendants)));
+    send(&mut window, Command::from(FigureCommand::Open(ReportFigure::Descendants)));
     wait_for_jobs(&mut window);
     check_names(&window, "a figure");
-    send(&mut window, Command::Steps(StepCommand::Begin(None)));
+    send(&mut window, Command::from(StepCommand::Begin(None)));
     wait_for_jobs(&mut window);
     check_names(&window, "the steps");
     check_tab(&mut window, "the steps");

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use eframe::egui::{self, vec2};
 
 use super::{Window, canvas, fingerprint, notice, paint, send, wait_until, wheel, window, window_of};
-use crate::app::command::{Command, FileCommand, ShellCommand, StepCommand, ViewCommand};
+use crate::app::command::{Command, FileCommand, ShellCommand, ViewCommand};
+use crate::app::features::stepping::StepCommand;
 use crate::app::tools::PAN;
 use meshbrush_core::document::Example;
 
 /// Copies a link, and returns it.
 pub fn copied(window: &mut Window) -> String {
-    window.state_mut().send(Command::File(FileCommand::CopyLink));
+    window.state_mut().send(Command::from(FileCommand::CopyLink));
     (0..10)
         .find_map(|_| {
             window.step();
@@ -24,7 +25,7 @@ pub fn copied(window: &mut Window) -> String {
 }
 
 pub fn open(window: &mut Window, link: &str) {
-    send(window, Command::File(FileCommand::Open(PathBuf::from(link))));
+    send(window, Command::from(FileCommand::Open(PathBuf::from(link))));
 }
 
 #[test]
@@ -33,13 +34,13 @@ fn a_link_opens_the_same_mesh_view_and_tool() {
     paint(&mut first, 0.3);
     let at = canvas(&first).center() + vec2(70.0, 30.0);
     wheel(&mut first, at, 300.0);
-    send(&mut first, Command::Shell(ShellCommand::Use(&PAN)));
+    send(&mut first, Command::from(ShellCommand::Use(&PAN)));
     let link = copied(&mut first);
     assert!(link.starts_with("#2.") && link.len() < 30_000, "{} characters", link.len());
     assert!(notice(&first).contains("The link was copied"), "{}", notice(&first));
     let area = |window: &Window| window.state().view().camera.unwrap().visible_world();
     let mut second = window();
-    send(&mut second, Command::File(FileCommand::OpenExample(Example::Diamond)));
+    send(&mut second, Command::from(FileCommand::OpenExample(Example::Diamond)));
     assert_ne!(fingerprint(&second), fingerprint(&first));
     open(&mut second, &link);
     assert_eq!(fingerprint(&second), fingerprint(&first));
@@ -54,7 +55,7 @@ fn a_link_opens_the_same_mesh_view_and_tool() {
     let (shown, wanted) = (area(&small), area(&first));
     assert!((shown.min - wanted.min).max_element() < px && (wanted.max - shown.max).max_element() < px);
     // A view that was not moved shows the whole domain in every window.
-    send(&mut first, Command::View(ViewCommand::Fit));
+    send(&mut first, Command::from(ViewCommand::Fit));
     let link = copied(&mut first);
     open(&mut small, &link);
     assert!(small.state().view().is_fitted);
@@ -63,18 +64,18 @@ fn a_link_opens_the_same_mesh_view_and_tool() {
 #[test]
 fn a_link_opens_at_the_step_that_was_shown() {
     let mut first = window();
-    send(&mut first, Command::File(FileCommand::OpenExample(Example::Diamond)));
+    send(&mut first, Command::from(FileCommand::OpenExample(Example::Diamond)));
     let step = |window: &Window| window.state().stepping().and_then(|steps| Some(steps.player()?.position()));
-    send(&mut first, Command::Steps(StepCommand::Begin(None)));
+    send(&mut first, Command::from(StepCommand::Begin(None)));
     wait_until(&mut first, |window| step(window).is_some());
-    send(&mut first, Command::Steps(StepCommand::GoTo(37)));
+    send(&mut first, Command::from(StepCommand::GoTo(37)));
     let link = copied(&mut first);
     let mut second = window();
     open(&mut second, &link);
     wait_until(&mut second, |window| step(window).is_some());
     assert_eq!(step(&second), Some(37));
     // More steps than there are lead to the last one.
-    send(&mut second, Command::Steps(StepCommand::BeginAt(usize::MAX)));
+    send(&mut second, Command::from(StepCommand::BeginAt(usize::MAX)));
     wait_until(&mut second, |window| step(window).is_some_and(|step| step > 37));
 }
 

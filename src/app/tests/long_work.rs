@@ -32,7 +32,7 @@ fn set_two_millions(window: &mut Window) {
 
 fn agree(window: &mut Window) {
     assert!(window.state().session().question().is_some(), "so many triangles are asked for");
-    send(window, Command::Edit(EditCommand::ApplyAnyway));
+    send(window, Command::from(EditCommand::ApplyAnyway));
 }
 
 /// Runs as few frames as possible until the progress of long work is shown.
@@ -49,7 +49,7 @@ fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
     set_two_millions(&mut window);
     let (before, generation) = (fingerprint(&window), window.state().session().follower().revision());
     // Layers and limits are followed in place; another grid is another mesh.
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
+    window.state_mut().send(Command::from(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
     window.step();
     let mut frames = 0;
     while window.state().session().stage() != Stage::InStep {
@@ -66,7 +66,7 @@ fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
 #[test]
 fn in_a_small_window_nothing_covers_the_button_that_cancels() {
     let mut window = at_60_frames_a_second(vec2(900.0, 600.0));
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(1e-4))));
+    window.state_mut().send(Command::from(EditCommand::Set(Setting::DiameterAtRiskOne(1e-4))));
     show_progress(&mut window);
     assert!(window.query_by_label_contains("Drag to paint risk").is_none(), "the hint makes room");
 }
@@ -76,7 +76,7 @@ fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
     let mut window = at_60_frames_a_second(vec2(1440.0, 900.0));
     set_two_millions(&mut window);
     let before = fingerprint(&window);
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
+    window.state_mut().send(Command::from(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
     show_progress(&mut window);
     assert!(window.query_by_role(Role::ProgressIndicator).is_some());
     window.get_by_role_and_label(Role::Button, "Cancel").click();
@@ -124,7 +124,7 @@ fn one_slice_of_work_is_small_however_much_there_is_to_do() {
 #[test]
 fn a_long_stroke_never_waits_for_the_mesh() {
     let mut window = window();
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(TWO_MILLIONS))));
+    window.state_mut().send(Command::from(EditCommand::Set(Setting::DiameterAtRiskOne(TWO_MILLIONS))));
     window.step();
     let from = on_screen(&window, FREE);
     window.event(Event::PointerMoved(from));
@@ -147,7 +147,7 @@ fn the_time_of_an_update_is_that_on_the_clock_with_a_unit() {
     let update = |window: &Window| value_of(window, Role::Definition, "update");
     let has_unit = |text: &str| [" ms", " s"].iter().any(|unit| text.trim_end_matches('…').ends_with(unit));
     let began = Instant::now();
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(TWO_MILLIONS))));
+    window.state_mut().send(Command::from(EditCommand::Set(Setting::DiameterAtRiskOne(TWO_MILLIONS))));
     window.step();
     assert_ne!(window.state().session().stage(), Stage::InStep);
     assert!(update(&window).ends_with('…') && has_unit(&update(&window)), "{}", update(&window));

@@ -27,7 +27,7 @@ fn pause_before_next_frame(window: &Window) -> Duration {
 }
 
 fn export(window: &mut Window, name: &str) {
-    send(window, Command::File(FileCommand::Export(scratch(name))));
+    send(window, Command::from(FileCommand::Export(scratch(name))));
     assert!(wait_for_notice(window).contains("written"));
 }
 
@@ -75,7 +75,7 @@ fn a_failed_edit_is_forgotten_with_the_next_edit() {
     assert_eq!(notice(&window), "");
     set(&mut window, Setting::Spacing(-1.0));
     assert!(!notice(&window).is_empty());
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(notice(&window), "");
 }
 
@@ -83,7 +83,7 @@ fn a_failed_edit_is_forgotten_with_the_next_edit() {
 fn news_stays_long_enough_to_be_read() {
     let mut window = window();
     for (length, seconds) in [(40, 5.0), (280, 20.0)] {
-        send(&mut window, Command::Shell(ShellCommand::Tell("a".repeat(length))));
+        send(&mut window, Command::from(ShellCommand::Tell("a".repeat(length))));
         wait_seconds(&mut window, seconds - 1.0);
         assert!(!notice(&window).is_empty(), "{length} characters are not read in {seconds} s");
         wait_seconds(&mut window, 3.0);
@@ -98,12 +98,12 @@ fn a_file_that_cannot_be_opened_is_forgotten_once_another_one_is() {
     let triangle = r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}"#;
     std::fs::write(&good, triangle).unwrap();
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Open(folder.join("missing.geojson"))));
+    send(&mut window, Command::from(FileCommand::Open(folder.join("missing.geojson"))));
     assert!(wait_for_notice(&mut window).contains("missing.geojson"));
     paint(&mut window, 0.9);
     assert!(!notice(&window).is_empty(), "an edit does not change what failed");
-    send(&mut window, Command::Edit(EditCommand::Undo));
-    send(&mut window, Command::File(FileCommand::Open(good)));
+    send(&mut window, Command::from(EditCommand::Undo));
+    send(&mut window, Command::from(FileCommand::Open(good)));
     wait_until(&mut window, |window| window.query_by_label("What is the file to be?").is_some());
     super::click_button(&mut window, "Open");
     wait_until(&mut window, |window| notice(window).is_empty());

@@ -67,9 +67,9 @@ use glam::{DVec2, dvec2};
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
-use crate::app::features::Features;
-use crate::app::features::paths::PathFinder;
-use crate::app::features::stepping::Steps;
+use crate::app::features::paths::{PathFinder, Paths};
+use crate::app::features::stepping::{Stepping, Steps};
+use crate::app::kit::Features;
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
@@ -124,7 +124,7 @@ pub fn painted(window: &Window, layer: LayerId, point: DVec2) -> f32 {
 
 /// Selects the layer at the bottom.
 pub fn select_base(window: &mut Window) {
-    send(window, Command::Layer(LayerCommand::Select(LayerId(0))));
+    send(window, Command::from(LayerCommand::Select(LayerId(0))));
 }
 
 /// Returns the layers of the document, with another one at the bottom.
@@ -164,12 +164,12 @@ pub fn send(window: &mut Window, command: Command) {
 /// Returns the command that shows a new document, as one that was read.
 pub fn show(settings: Settings) -> Command {
     let document = Document::new(settings, None).expect("valid settings");
-    Command::File(FileCommand::Show(Opened { document: Arc::new(document), home: None }))
+    Command::from(FileCommand::Show(Opened { document: Arc::new(document), home: None }))
 }
 
 pub fn set(window: &mut Window, setting: Setting) {
-    window.state_mut().send(Command::Edit(EditCommand::Set(setting)));
-    send(window, Command::Edit(EditCommand::EndGesture));
+    window.state_mut().send(Command::from(EditCommand::Set(setting)));
+    send(window, Command::from(EditCommand::EndGesture));
 }
 
 pub fn canvas(window: &Window) -> Rect {
@@ -398,9 +398,9 @@ pub fn folder(of: &str, name: &str) -> PathBuf {
 
 /// A short vertical stroke at an x of the unit square.
 pub fn paint(window: &mut Window, x: f64) {
-    send(window, Command::Brush(BrushCommand::BeginStroke(dvec2(x, 0.5))));
-    send(window, Command::Brush(BrushCommand::DrawTo(dvec2(x, 0.6))));
-    send(window, Command::Brush(BrushCommand::EndStroke));
+    send(window, Command::from(BrushCommand::BeginStroke(dvec2(x, 0.5))));
+    send(window, Command::from(BrushCommand::DrawTo(dvec2(x, 0.6))));
+    send(window, Command::from(BrushCommand::EndStroke));
 }
 
 /// Returns the selected layer.
@@ -435,7 +435,7 @@ impl App {
     }
 
     pub fn paths(&self) -> &PathFinder {
-        &self.features.paths.finder
+        &self.features.get::<Paths>().finder
     }
 
     pub fn features(&self) -> &Features {
@@ -443,7 +443,7 @@ impl App {
     }
 
     pub fn stepping(&self) -> Option<&Steps> {
-        self.features.stepping.steps()
+        self.features.get::<Stepping>().steps()
     }
 
     pub fn is_cutting(&self) -> bool {

@@ -10,19 +10,21 @@ use super::{
     stroke, triangles, window,
 };
 use crate::app::command::{
-    BrushCommand, Command, DomainCommand, EditCommand, FileCommand, LayerCommand, RegionCommand,
-    ShellCommand, SpaceCommand, ViewCommand,
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
 };
-use crate::app::features::domain::DomainToolMode;
-use crate::app::features::painting::{BRUSH, BrushMode};
-use crate::app::tools::PaintKind;
+use crate::app::features::domain::DomainTool;
+use crate::app::features::domain::{DomainCommand, DomainToolMode};
+use crate::app::features::painting::BRUSH;
+use crate::app::features::regions::RegionCommand;
+use crate::app::features::regions::RegionTool;
+use crate::app::tools::{BrushMode, PaintKind};
 use crate::app::view::{FieldOverlay, View};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::{LayerId, LayerKind, Quantity};
 use meshbrush_mesh::geometry::Rect;
 
 fn brush(window: &mut Window, command: BrushCommand) {
-    send(window, Command::Brush(command));
+    send(window, Command::from(command));
 }
 
 /// Chooses of everything that belongs to a document something unusual.
@@ -39,16 +41,16 @@ fn disarrange(window: &mut Window) {
         brush(window, command);
     }
     for command in [
-        Command::View(ViewCommand::SetOverlay(FieldOverlay::Depth)),
-        Command::View(ViewCommand::ToggleLevel(3)),
-        Command::View(ViewCommand::ShowLevel(Some(2))),
-        Command::View(ViewCommand::Zoom(3.0)),
-        Command::View(ViewCommand::Space(SpaceCommand::Toggle)),
-        Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)),
-        Command::Domain(DomainCommand::AddCorner(dvec2(0.1, 0.1))),
-        Command::Region(RegionCommand::AddCorner(dvec2(0.2, 0.1))),
-        Command::Inspect(crate::app::command::InspectCommand::Query(FREE)),
-        Command::Shell(ShellCommand::Use(&BRUSH)),
+        Command::from(ViewCommand::SetOverlay(FieldOverlay::Depth)),
+        Command::from(ViewCommand::ToggleLevel(3)),
+        Command::from(ViewCommand::ShowLevel(Some(2))),
+        Command::from(ViewCommand::Zoom(3.0)),
+        Command::from(ViewCommand::Space(SpaceCommand::Toggle)),
+        Command::from(DomainCommand::Mode(DomainToolMode::Polygon)),
+        Command::from(DomainCommand::AddCorner(dvec2(0.1, 0.1))),
+        Command::from(RegionCommand::AddCorner(dvec2(0.2, 0.1))),
+        Command::from(crate::app::features::inspection::InspectCommand::Query(FREE)),
+        Command::from(ShellCommand::Use(&BRUSH)),
     ] {
         send(window, command);
     }
@@ -61,7 +63,7 @@ fn described(view: &View) -> String {
 
 #[test]
 fn nothing_of_a_document_is_left_in_the_next_one() {
-    let open = Command::File(FileCommand::OpenExample(Example::ALL[1]));
+    let open = Command::from(FileCommand::OpenExample(Example::ALL[1]));
     let mut usual = window();
     send(&mut usual, open.clone());
     let mut changed = window();
@@ -75,7 +77,10 @@ fn nothing_of_a_document_is_left_in_the_next_one() {
     let extent = settings(&changed).domain.bounds.size().max_element();
     assert_eq!(tools.radius, 0.2 * extent, "the brush keeps its share of the domain");
     assert_eq!(tools.diameter, usual_tools.diameter);
-    assert_eq!((&tools.domain, &tools.region, tools.error), (&usual_tools.domain, &usual_tools.region, 1.0));
+    assert_eq!(
+        (tools.settings::<DomainTool>(), tools.settings::<RegionTool>(), tools.error),
+        (usual_tools.settings::<DomainTool>(), usual_tools.settings::<RegionTool>(), 1.0)
+    );
     assert_eq!(described(changed.state().view()), described(usual.state().view()));
     assert_eq!(changed.state().session().queried(), None);
     click(&mut changed, FREE, Modifiers::SHIFT);
@@ -88,9 +93,9 @@ fn what_a_person_arranged_stays_for_the_next_document() {
     for command in [BrushCommand::Hardness(0.7), BrushCommand::Strength(0.3), BrushCommand::Smoothing(0.4)] {
         brush(&mut window, command);
     }
-    send(&mut window, Command::View(ViewCommand::ToggleEdges));
-    send(&mut window, Command::View(ViewCommand::Colormap(meshbrush_render::colormap::Colormap::Turbo)));
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(ViewCommand::ToggleEdges));
+    send(&mut window, Command::from(ViewCommand::Colormap(meshbrush_render::colormap::Colormap::Turbo)));
+    send(&mut window, Command::from(FileCommand::New));
     let tools = window.state().tools();
     assert_eq!((tools.hardness, tools.strength(), tools.smoothing), (0.7, 0.3, 0.4));
     let view = window.state().view();
@@ -102,7 +107,7 @@ fn while_a_document_is_made_nothing_of_the_last_one_is_shown() {
     let mut window = window();
     assert!(triangles(&window) > 1000);
     let former = window.state().session().document_id();
-    window.state_mut().send(Command::File(FileCommand::OpenExample(Example::CelticSea)));
+    window.state_mut().send(Command::from(FileCommand::OpenExample(Example::CelticSea)));
     let mut frames = 0;
     loop {
         window.step();
@@ -127,7 +132,7 @@ fn while_a_document_is_made_nothing_of_the_last_one_is_shown() {
 
 /// A document with a paint layer of diameters above one of risk.
 fn add_diameter_layer(window: &mut Window) -> LayerId {
-    send(window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Diameter)))));
+    send(window, Command::from(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Diameter)))));
     super::active(window).id
 }
 
@@ -135,20 +140,20 @@ fn add_diameter_layer(window: &mut Window) -> LayerId {
 fn the_brush_paints_the_quantity_of_the_selected_layer_however_it_was_selected() {
     let mut window = window();
     let kind = |window: &Window| window.state().tools().kind;
-    send(&mut window, Command::Layer(LayerCommand::Select(PAINTED_RISK)));
+    send(&mut window, Command::from(LayerCommand::Select(PAINTED_RISK)));
     assert_eq!(kind(&window), PaintKind::Risk);
-    send(&mut window, Command::Layer(LayerCommand::Delete(PAINTED_DIAMETER)));
-    send(&mut window, Command::Layer(LayerCommand::Select(PAINTED_RISK)));
+    send(&mut window, Command::from(LayerCommand::Delete(PAINTED_DIAMETER)));
+    send(&mut window, Command::from(LayerCommand::Select(PAINTED_RISK)));
     let added = add_diameter_layer(&mut window);
     assert_eq!(kind(&window), PaintKind::Diameter);
-    send(&mut window, Command::Layer(LayerCommand::Delete(added)));
+    send(&mut window, Command::from(LayerCommand::Delete(added)));
     assert_eq!((super::active(&window).id, kind(&window)), (PAINTED_RISK, PaintKind::Risk), "deleted");
     add_diameter_layer(&mut window);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(kind(&window), PaintKind::Risk, "undone");
     brush(&mut window, BrushCommand::Kind(PaintKind::Diameter));
     assert_eq!(kind(&window), PaintKind::Diameter, "a person may choose what no layer takes");
-    send(&mut window, Command::Layer(LayerCommand::Select(PAINTED_RISK)));
+    send(&mut window, Command::from(LayerCommand::Select(PAINTED_RISK)));
     assert_eq!(kind(&window), PaintKind::Risk, "selected again");
     stroke(&mut window, FREE, FREE);
     assert!(painted(&window, PAINTED_RISK, FREE) > 0.0);
@@ -181,8 +186,8 @@ fn the_brush_is_of_use_at_any_zoom() {
         window.state().tools().radius
     };
     assert_eq!(least(&mut window), 1e-4, "the whole domain is in sight");
-    send(&mut window, Command::View(ViewCommand::LookAt(FREE)));
-    send(&mut window, Command::View(ViewCommand::Zoom(20_000.0)));
+    send(&mut window, Command::from(ViewCommand::LookAt(FREE)));
+    send(&mut window, Command::from(ViewCommand::Zoom(20_000.0)));
     let px = window.state().view().world_per_px();
     let radius = least(&mut window);
     assert!(radius <= px && radius > 0.1 * px, "{radius} beside a pixel of {px}");
@@ -192,5 +197,5 @@ fn the_brush_is_of_use_at_any_zoom() {
     move_to(&mut window, FREE);
     click(&mut window, FREE, Modifiers::NONE);
     assert_eq!(entries(&window), 1);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
 }

@@ -195,7 +195,7 @@ fn the_menu_of_a_number_shows_its_default_and_sets_it() {
     for at in places {
         set(&mut window, Setting::Spacing(0.1));
         let entry = open_number_menu(&mut window, at, "Reset to");
-        assert_eq!(entry, format!("Reset to {}", crate::app::widgets::format::significant(usual, 3)));
+        assert_eq!(entry, format!("Reset to {}", meshbrush_ui::widgets::format::significant(usual, 3)));
         assert_eq!(settings(&window).spacing, 0.1, "a secondary click changes nothing");
         window.get_by_role_and_label(Role::Button, &entry).click();
         window.run();
@@ -431,7 +431,7 @@ fn the_radius_of_the_brush_is_a_length_on_the_earth_at_the_place() {
     set(&mut window, Setting::Spacing(5e5));
     set(&mut window, Setting::Domain(domain.clone()));
     set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
-    send(&mut window, Command::View(ViewCommand::Fit));
+    send(&mut window, Command::from(ViewCommand::Fit));
     type_into(&mut window, "Radius value", "50 km");
     let center = window.state().view().camera.unwrap().visible_world().center();
     let radius = window.state().tools().radius;

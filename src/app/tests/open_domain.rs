@@ -14,7 +14,8 @@ use super::{
     wait_for_notice, wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::{Command, DomainCommand, FileCommand};
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::DomainCommand;
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -145,7 +146,7 @@ fn a_question_that_is_cancelled_opens_nothing() {
     let file = written("cancelled", "coast.geojson", COAST);
     let mut window = window();
     let (name, before) = (settings(&window).name.clone(), entries(&window));
-    send(&mut window, Command::File(FileCommand::Open(file)));
+    send(&mut window, Command::from(FileCommand::Open(file)));
     wait_until(&mut window, is_asked);
     click_button(&mut window, "Cancel");
     assert!(!is_asked(&window));
@@ -156,7 +157,7 @@ fn a_question_that_is_cancelled_opens_nothing() {
 fn metres_are_opened_without_a_question_and_keep_their_plane() {
     let file = written("metres", "utm.geojson", UTM);
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Open(file)));
+    send(&mut window, Command::from(FileCommand::Open(file)));
     wait_until(&mut window, |window| settings(window).name == "utm");
     assert!(!is_asked(&window));
     let settings = settings(&window);
@@ -169,7 +170,7 @@ fn metres_are_opened_without_a_question_and_keep_their_plane() {
 fn coordinates_that_nobody_knows_are_opened_with_a_note() {
     let file = written("plain", "plain.geojson", PLAIN);
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Open(file)));
+    send(&mut window, Command::from(FileCommand::Open(file)));
     let note = wait_for_notice(&mut window);
     assert!(note.contains("plain.geojson names no coordinate system") && note.contains("“Unit”"), "{note}");
     assert_eq!((settings(&window).name.as_str(), settings(&window).unit), ("plain", LengthUnit::None));
@@ -217,7 +218,7 @@ fn choose(window: &mut Window, title: &str) {
 fn land_is_opened_as_the_sea_around_it() {
     let file = written("sea", "island.geojson", ISLAND);
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Choose(file)));
+    send(&mut window, Command::from(DomainCommand::Choose(file)));
     wait_until(&mut window, is_asked);
     choose(&mut window, "Sea around this land");
     click_button(&mut window, "Open");
@@ -236,7 +237,7 @@ fn land_is_opened_as_the_sea_around_it() {
 fn a_line_of_coast_is_asked_about_and_has_no_domain_of_its_own() {
     let file = written("line", "line.geojson", LINE);
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Choose(file)));
+    send(&mut window, Command::from(DomainCommand::Choose(file)));
     wait_until(&mut window, is_asked);
     let radio =
         |title| window.get_by_role_and_label(Role::RadioButton, title).accesskit_node().data().clone();

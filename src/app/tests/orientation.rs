@@ -36,14 +36,14 @@ fn ask_for_place(window: &mut Window, text: &str) {
 #[test]
 fn the_scale_bar_has_a_round_length_with_the_unit() {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     let degrees = scale(&window).unwrap();
     assert!(degrees.contains("° ≈ ") && degrees.ends_with(" km"), "{degrees}");
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Threats)));
     assert_eq!(scale(&window).as_deref(), Some("0.1"));
     set(&mut window, Setting::LengthUnit(LengthUnit::Kilometre));
     assert_eq!(scale(&window).as_deref(), Some("0.1 km"));
-    send(&mut window, Command::View(ViewCommand::Zoom(4.0)));
+    send(&mut window, Command::from(ViewCommand::Zoom(4.0)));
     assert_eq!(scale(&window).as_deref(), Some("0.02 km"));
     choose(&mut window, "View", "Scale bar");
     assert_eq!(scale(&window), None);
@@ -74,7 +74,7 @@ fn the_scale_bar_of_a_document_on_the_earth_is_a_length_on_the_earth_with_an_arr
             &mut window,
             Setting::Domain(Domain { projection: Some(projection), ..Domain::rectangle(bounds) }),
         );
-        send(&mut window, Command::View(ViewCommand::Fit));
+        send(&mut window, Command::from(ViewCommand::Fit));
         let shown = north(&window).unwrap();
         let angle: f64 = shown.strip_suffix("° clockwise from up").unwrap().parse().unwrap();
         // The middle of the view is about that of the domain.
@@ -94,16 +94,16 @@ fn coordinates_along_the_canvas_are_switched_off_in_the_menu() {
     assert!(window.state().view().aids.coordinates);
     choose(&mut window, "View", "Coordinates along the canvas");
     assert!(!window.state().view().aids.coordinates);
-    send(&mut window, Command::View(ViewCommand::ToggleAid(CanvasAid::Coordinates)));
+    send(&mut window, Command::from(ViewCommand::ToggleAid(CanvasAid::Coordinates)));
     assert!(window.state().view().aids.coordinates);
 }
 
 /// Returns how many pixels of a window the graticule changes.
 fn changed_by_graticule(window: &mut Window) -> usize {
     let before = picture(window);
-    send(window, Command::View(ViewCommand::ToggleAid(CanvasAid::Graticule)));
+    send(window, Command::from(ViewCommand::ToggleAid(CanvasAid::Graticule)));
     let after = picture(window);
-    send(window, Command::View(ViewCommand::ToggleAid(CanvasAid::Graticule)));
+    send(window, Command::from(ViewCommand::ToggleAid(CanvasAid::Graticule)));
     before.rgba.chunks(4).zip(after.rgba.chunks(4)).filter(|(a, b)| a != b).count()
 }
 
@@ -112,7 +112,7 @@ fn the_graticule_is_drawn_in_documents_on_the_earth_only() {
     let mut window = drawn_window();
     assert!(!window.state().view().aids.graticule);
     assert_eq!(changed_by_graticule(&mut window), 0);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     wait_for_jobs(&mut window);
     let changed = changed_by_graticule(&mut window);
     assert!(changed > 3000, "{changed} pixels");
@@ -160,8 +160,8 @@ fn an_arrow_leads_back_to_the_mesh_when_none_of_it_is_in_view() {
     set(&mut window, Setting::Domain(frame));
     let back = |window: &Window| window.query_by_role_and_label(Role::Button, "Back to the mesh").is_some();
     assert!(!back(&window));
-    send(&mut window, Command::View(ViewCommand::LookAt(dvec2(0.5, 0.5))));
-    send(&mut window, Command::View(ViewCommand::Zoom(6.0)));
+    send(&mut window, Command::from(ViewCommand::LookAt(dvec2(0.5, 0.5))));
+    send(&mut window, Command::from(ViewCommand::Zoom(6.0)));
     assert!(back(&window));
     window.get_by_role_and_label(Role::Button, "Back to the mesh").click();
     window.run();
@@ -177,9 +177,9 @@ fn no_arrow_leads_back_where_a_part_of_the_mesh_is_in_view() {
     let back = |window: &Window| window.query_by_role_and_label(Role::Button, "Back to the mesh").is_some();
     // The middle of the domain is not in view, and nothing but the mesh is.
     for (inside, zoom) in [(dvec2(0.2, 0.2), 4.0), (dvec2(0.8, 0.3), 6.0), (dvec2(0.1, 0.9), 50.0)] {
-        send(&mut window, Command::View(ViewCommand::Fit));
-        send(&mut window, Command::View(ViewCommand::LookAt(inside)));
-        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        send(&mut window, Command::from(ViewCommand::Fit));
+        send(&mut window, Command::from(ViewCommand::LookAt(inside)));
+        send(&mut window, Command::from(ViewCommand::Zoom(zoom)));
         let seen = window.state().view().camera.unwrap().visible_world();
         assert!(!seen.contains(dvec2(0.5, 0.5)) && !back(&window), "{inside}: {seen:?}");
     }
@@ -245,16 +245,16 @@ fn an_overlay_and_contour_lines_have_a_legend() {
 #[test]
 fn every_level_along_an_outline_has_a_colour_of_its_own() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     // The outline asks for finer triangles than any paint can.
     set(&mut window, Setting::SmallestDiameter(0.2));
     let deepest = window.state().session().level_counts().len() - 1;
     let colors = window.state().view().level_colors(settings(&window));
     let own: HashSet<_> = (0..=deepest).map(|level| colors.of(level as u8)).collect();
     assert_eq!(own.len(), deepest + 1);
-    send(&mut window, Command::Brush(BrushCommand::BeginStroke(dvec2(25.0, 38.0))));
-    send(&mut window, Command::Brush(BrushCommand::DrawTo(dvec2(25.5, 38.0))));
-    send(&mut window, Command::Brush(BrushCommand::EndStroke));
+    send(&mut window, Command::from(BrushCommand::BeginStroke(dvec2(25.0, 38.0))));
+    send(&mut window, Command::from(BrushCommand::DrawTo(dvec2(25.5, 38.0))));
+    send(&mut window, Command::from(BrushCommand::EndStroke));
     assert_eq!(window.state().view().level_colors(settings(&window)), colors, "paint changes no colour");
     open_tab(&mut window, Tab::Mesh);
     for level in 0..=deepest {

@@ -25,12 +25,12 @@ fn asks(window: &Window, file: &Path) -> bool {
 }
 
 fn open(window: &mut Window, file: &Path) {
-    send(window, Command::File(FileCommand::Open(file.to_owned())));
+    send(window, Command::from(FileCommand::Open(file.to_owned())));
     wait_until(window, |window| window.state().project.path() == Some(file));
 }
 
 fn save(window: &mut Window, file: &Path) {
-    send(window, Command::File(FileCommand::Save));
+    send(window, Command::from(FileCommand::Save));
     wait_until(window, |window| {
         asks(window, file) || !window.state().project.is_edited(window.state().session())
     });
@@ -68,7 +68,7 @@ fn a_project_that_somebody_changed_is_not_replaced_without_a_question() {
     assert_eq!(*project::read(&file).unwrap().settings(), others);
     assert!(window.query_by_label("a — edited").is_some());
     // Saved before the document closes: the question comes first, and what was to be done waits for it.
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Diamond)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Diamond)));
     press(&mut window, "Save");
     wait_until(&mut window, |window| asks(window, &file));
     assert!(*document(&window).paint() == last);
@@ -107,9 +107,9 @@ fn a_read_only_project_is_not_replaced_without_a_question() {
     save(&mut window, &file);
     assert!(asks(&window, &file));
     press(&mut window, "Cancel");
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     press(&mut window, "Do not save");
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     wait_until(&mut window, |window| asks(window, &file));
     assert!(*project::read(&file).unwrap().paint() == last);
 }
@@ -146,7 +146,7 @@ fn two_windows_with_one_project_know_of_each_other() {
     assert!(asks(first, &file), "the other window changed it");
     press(first, "Cancel");
     // When one has another document, the other one is alone.
-    send(first, Command::File(FileCommand::New));
+    send(first, Command::from(FileCommand::New));
     press(first, "Do not save");
     paint(second, 0.4);
     save(second, &file);

@@ -13,8 +13,8 @@ use crate::app::view::FieldOverlay;
 const PAINTED: DVec2 = dvec2(0.72, 0.74);
 
 fn show(window: &mut Window, theme: ThemePreference, overlay: FieldOverlay) -> Picture {
-    send(window, Command::View(ViewCommand::Theme(theme)));
-    send(window, Command::View(ViewCommand::SetOverlay(overlay)));
+    send(window, Command::from(ViewCommand::Theme(theme)));
+    send(window, Command::from(ViewCommand::SetOverlay(overlay)));
     window.hover_at(RESTING_PLACE);
     window.run();
     // Its colours are computed on another thread.
@@ -122,9 +122,9 @@ fn the_ages_of_triangles_are_exact_at_any_zoom() {
     stroke(&mut window, FREE, FREE);
     // The rim of what was painted.
     let rim = FREE + dvec2(0.058, 0.0);
-    send(&mut window, Command::View(ViewCommand::LookAt(rim)));
+    send(&mut window, Command::from(ViewCommand::LookAt(rim)));
     for zoom in [1.0, 8.0, 30.0] {
-        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        send(&mut window, Command::from(ViewCommand::Zoom(zoom)));
         let image = show(&mut window, ThemePreference::Dark, FieldOverlay::Age);
         let scale = cells(&window, &image, "Legend: edits ago", 11);
         let (inner, mut seen) = (canvas(&window).shrink(160.0), [0; 2]);

@@ -15,12 +15,12 @@ use super::{
 use crate::app::command::{Command, FileCommand, ViewCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::kit::Tab;
-use crate::app::theme;
-use crate::app::theme::{metrics, tokens_of};
 use crate::app::view::FieldOverlay;
-use crate::app::widgets::*;
 use meshbrush_core::document::{Background, Picture, Setting};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_ui::theme;
+use meshbrush_ui::theme::{metrics, tokens_of};
+use meshbrush_ui::widgets::*;
 
 fn texts(window: &Window) -> Vec<(String, Rect)> {
     painted_texts(window.output())
@@ -89,7 +89,7 @@ fn tools_are_in_the_middle_of_their_strip() {
 fn fit_domain_is_a_button_below_the_tools() {
     let mut window = window();
     let before = window.state().view().camera;
-    send(&mut window, Command::View(ViewCommand::Zoom(3.0)));
+    send(&mut window, Command::from(ViewCommand::Zoom(3.0)));
     assert_ne!(window.state().view().camera, before);
     let buttons = window.get_all_by_role_and_label(Role::Button, "Fit domain");
     buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap().click();
@@ -130,8 +130,8 @@ fn the_brush_has_a_ring_and_with_alt_an_eyedropper_in_place_of_it() {
 fn the_ends_of_a_path_are_named_beside_them() {
     let mut window = window();
     let (start, goal) = (dvec2(0.3, 0.4), dvec2(0.7, 0.6));
-    send(&mut window, Command::Path(PathCommand::StartAt(start)));
-    send(&mut window, Command::Path(PathCommand::GoalAt(goal)));
+    send(&mut window, Command::from(PathCommand::StartAt(start)));
+    send(&mut window, Command::from(PathCommand::GoalAt(goal)));
     for (end, at) in [(": start", start), (": goal", goal)] {
         let label = window.get_by_label_contains(end).rect();
         let at = on_screen(&window, at);
@@ -241,7 +241,7 @@ fn the_note_of_a_section_leaves_its_title_room() {
 #[test]
 fn a_layer_of_the_coast_says_what_is_missing_where_there_is_none() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     super::click_button(&mut window, "Add layer");
     super::click_button(&mut window, "straits of the domain");
     assert!(window.query_by_label_contains("The domain has no coast").is_some());
@@ -259,7 +259,7 @@ fn the_palette_fits_into_a_narrow_window() {
 #[test]
 fn legends_say_what_their_colours_mean() {
     let mut window = window();
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Forced)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Forced)));
     let legend = window.get_by_label_contains("Legend: triangles that only compatibility").rect();
     assert!(texts_in(&window, legend).iter().any(|text| text == "compatibility"));
 }

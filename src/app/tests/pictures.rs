@@ -131,14 +131,14 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     window.run();
     let at = on_screen(&window, dvec2(0.72, 0.74));
     let plain = picture(&mut window);
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Risk)));
     // Its colours are computed on another thread.
     wait_for_jobs(&mut window);
     let [r, g, _] = pixel(&picture(&mut window), at);
     assert!(r > g, "risk is warm");
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::None)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::None)));
     assert_eq!(pixel(&picture(&mut window), at), pixel(&plain, at));
-    send(&mut window, Command::View(ViewCommand::Theme(ThemePreference::Light)));
+    send(&mut window, Command::from(ViewCommand::Theme(ThemePreference::Light)));
     let light = picture(&mut window);
     let corner = canvas(&window).left_top() + vec2(3.0, 3.0);
     assert!(pixel(&plain, corner)[0] < 40 && pixel(&light, corner)[0] > 180);
@@ -174,11 +174,11 @@ fn the_canvas_shows_the_mask_and_the_shapes_of_the_selected_layer() {
     let mut window = drawn_window();
     let corners = [dvec2(0.7, 0.3), dvec2(0.95, 0.3), dvec2(0.95, 0.7), dvec2(0.7, 0.7)];
     let mask = Mask::new(&[vec![corners.to_vec()]]).unwrap();
-    send(&mut window, Command::Layer(LayerCommand::Mask(PAINTED_RISK, Some(mask))));
+    send(&mut window, Command::from(LayerCommand::Mask(PAINTED_RISK, Some(mask))));
     window.hover_at(RESTING_PLACE);
     let at = on_screen(&window, dvec2(0.95, 0.5));
     let mut shown = |command| {
-        send(&mut window, Command::Layer(command));
+        send(&mut window, Command::from(command));
         picture(&mut window)
     };
     assert!(colorful(&shown(LayerCommand::Select(PAINTED_RISK)), at, 3) >= 7, "a line of the accent colour");

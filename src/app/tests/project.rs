@@ -68,15 +68,15 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
     let (before, bytes) = (fingerprint(&window), fs::read(&saved).unwrap());
     paint(&mut window, 0.8);
     assert!(shows(&window, "threats — edited") && fingerprint(&window) != before);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert!(shows(&window, "threats"), "undone to what is saved");
-    send(&mut window, Command::Edit(EditCommand::Redo));
+    send(&mut window, Command::from(EditCommand::Redo));
     key(&mut window, Modifiers::COMMAND, Key::S);
     wait(&mut window, |window| shows(window, "threats"));
     assert!(fs::read(&saved).unwrap() != bytes);
 
     fs::write(&saved, &bytes).unwrap();
-    send(&mut window, Command::File(FileCommand::Open(saved.clone())));
+    send(&mut window, Command::from(FileCommand::Open(saved.clone())));
     wait(&mut window, |window| document(window).history().is_empty());
     assert_eq!(fingerprint(&window), before);
     assert!(shows(&window, "threats"));
@@ -86,8 +86,8 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
 fn edits_after_the_start_of_saving_stay_unsaved() {
     let file = folder("during").join("a.meshbrush");
     let mut window = window();
-    send(&mut window, Command::Brush(BrushCommand::BeginStroke(dvec2(0.9, 0.5))));
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(BrushCommand::BeginStroke(dvec2(0.9, 0.5))));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     let saved = document(&window).paint().clone();
     paint(&mut window, 0.8);
     wait(&mut window, |window| shows(window, "a — edited"));
@@ -101,16 +101,16 @@ fn unsaved_edits_are_asked_about() {
     let question = "Save changes to “Radar threats”?";
     let shown = show(Settings { spacing: 0.3, ..Settings::default() });
     let leaves = [
-        Command::File(FileCommand::New),
-        Command::File(FileCommand::OpenExample(Example::Diamond)),
+        Command::from(FileCommand::New),
+        Command::from(FileCommand::OpenExample(Example::Diamond)),
         shown,
-        Command::File(FileCommand::Quit),
+        Command::from(FileCommand::Quit),
     ];
     for leave in leaves {
         let mut window = window();
         send(&mut window, leave.clone());
         assert!(!shows(&window, question), "nothing is unsaved");
-        send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
+        send(&mut window, Command::from(FileCommand::OpenExample(Example::Threats)));
         paint(&mut window, 0.9);
         let before = document(&window).version();
         send(&mut window, leave.clone());
@@ -120,15 +120,15 @@ fn unsaved_edits_are_asked_about() {
         send(&mut window, leave.clone());
         press(&mut window, "Do not save");
         assert!(!shows(&window, question));
-        assert_eq!(document(&window).version() == before, leave == Command::File(FileCommand::Quit));
+        assert_eq!(document(&window).version() == before, leave == Command::from(FileCommand::Quit));
     }
     // Saved first, and then left.
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(file.clone())));
     wait(&mut window, |window| shows(window, "b"));
     paint(&mut window, 0.9);
     let painted = document(&window).paint().clone();
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     press(&mut window, "Save");
     wait(&mut window, |window| document(window).paint().is_blank());
     assert!(*project::read(&file).unwrap().paint() == painted);
@@ -183,7 +183,7 @@ fn a_journal_that_cannot_be_written_is_told() {
     fs::write(&taken, "").unwrap();
     let mut window = window();
     window.state_mut().keep_journal_in(taken.join("journals"));
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     paint(&mut window, 0.9);
     let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
     wait(&mut window, |window| told(window).is_some());
@@ -197,10 +197,10 @@ fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
     let (live, copied) = (folder("hidden"), folder("hidden-copy"));
     let mut window = window();
     window.state_mut().keep_journal_in(live.clone());
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     paint(&mut window, 0.9);
     let painted = document(&window).active_layer().unwrap().id;
-    send(&mut window, Command::Layer(LayerCommand::Show(painted, false)));
+    send(&mut window, Command::from(LayerCommand::Show(painted, false)));
     paint(&mut window, 0.4);
     let hidden = |settings: &Settings| settings.layer(painted).is_some_and(|layer| !layer.visible);
     assert!(hidden(document(&window).settings()));
@@ -231,7 +231,7 @@ fn gestures_in_quick_succession_are_kept_in_little_and_nothing_is_done_after_the
     let (live, copied) = (folder("succession"), folder("succession-copy"));
     let mut window = window();
     window.state_mut().keep_journal_in(live.clone());
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Threats)));
     paint(&mut window, 0.9);
     let painted = document(&window).active_layer().unwrap().id;
     let length = || -> u64 {
@@ -241,7 +241,7 @@ fn gestures_in_quick_succession_are_kept_in_little_and_nothing_is_done_after_the
     kept(&mut window, &live, &copied, |project| project.settings.layers.len() == layers);
     let before = length();
     for _ in 0..20 {
-        send(&mut window, Command::Layer(LayerCommand::Duplicate(painted)));
+        send(&mut window, Command::from(LayerCommand::Duplicate(painted)));
     }
     let kept = kept(&mut window, &live, &copied, |project| project.settings.layers.len() == layers + 20);
     assert!(kept.paint == *document(&window).paint() && kept.settings == *document(&window).settings());
@@ -256,10 +256,10 @@ fn a_file_that_is_there_is_not_replaced_without_a_question() {
     let file = folder("replace").join("c.meshbrush");
     fs::write(&file, "somebody's").unwrap();
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::SaveAs(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveAs(file.clone())));
     press(&mut window, "Cancel");
     assert_eq!(fs::read(&file).unwrap(), b"somebody's");
-    send(&mut window, Command::File(FileCommand::SaveAs(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveAs(file.clone())));
     press(&mut window, "Replace");
     wait(&mut window, |window| shows(window, "c"));
     assert!(project::read(&file).is_ok());
@@ -272,10 +272,10 @@ fn a_document_is_saved_as_a_recipe_and_files_beside_it_are_asked_about() {
     let beside = folder.join("c-paint.meshbrush");
     fs::write(&beside, "somebody's").unwrap();
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::SaveRecipeAs(folder.join("c"))));
+    send(&mut window, Command::from(FileCommand::SaveRecipeAs(folder.join("c"))));
     press(&mut window, "Cancel");
     assert!(fs::read(&beside).unwrap() == b"somebody's" && !file.exists());
-    send(&mut window, Command::File(FileCommand::SaveRecipeAs(file.clone())));
+    send(&mut window, Command::from(FileCommand::SaveRecipeAs(file.clone())));
     press(&mut window, "Replace");
     wait(&mut window, |_| file.exists());
     let recipe = recipe::read(&file).unwrap();
@@ -291,23 +291,23 @@ fn a_session_is_exported_as_a_test_that_replays() {
     let file = folder("test").join("threats.jsonl");
     let mut window = window();
     paint(&mut window, 0.9);
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.004))));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
-    send(&mut window, Command::Edit(EditCommand::Undo));
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Spacing(1e-9))));
-    send(&mut window, Command::File(FileCommand::ExportTestAs(file.with_extension(""))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::SmallestDiameter(0.004))));
+    send(&mut window, Command::from(EditCommand::EndGesture));
+    send(&mut window, Command::from(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Set(Setting::Spacing(1e-9))));
+    send(&mut window, Command::from(FileCommand::ExportTestAs(file.with_extension(""))));
     wait(&mut window, |_| file.exists());
     let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
     assert_eq!((replayed.edits, replayed.difference), (3, None), "what was refused is no edit");
     assert_eq!(replayed.triangles, window.state().session().mesh().triangle_count());
     // A document that is opened has a recording of its own.
     let before = fs::read(&file).unwrap();
-    send(&mut window, Command::File(FileCommand::ExportTestAs(file.clone())));
+    send(&mut window, Command::from(FileCommand::ExportTestAs(file.clone())));
     press(&mut window, "Cancel");
     assert_eq!(fs::read(&file).unwrap(), before);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Diamond)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Diamond)));
     press(&mut window, "Do not save");
-    send(&mut window, Command::File(FileCommand::ExportTest(file.clone())));
+    send(&mut window, Command::from(FileCommand::ExportTest(file.clone())));
     wait(&mut window, |_| fs::read(&file).unwrap() != before);
     let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
     assert_eq!((replayed.edits, replayed.triangles), (0, 9560));
@@ -329,7 +329,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     for (name, bytes, word) in bad {
         let file = folder.join(name);
         fs::write(&file, bytes).unwrap();
-        send(&mut window, Command::File(FileCommand::Open(file)));
+        send(&mut window, Command::from(FileCommand::Open(file)));
         let message =
             |window: &Window| window.state().session().notices().shown().map(|notice| notice.text.clone());
         wait(&mut window, |window| message(window).is_some_and(|text| text.contains(name)));
@@ -338,7 +338,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     }
     assert_eq!(document(&window).version(), version);
     paint(&mut window, 0.9);
-    send(&mut window, Command::File(FileCommand::SaveTo(folder.join("no-such-folder").join("d.meshbrush"))));
+    send(&mut window, Command::from(FileCommand::SaveTo(folder.join("no-such-folder").join("d.meshbrush"))));
     // The message about the last file may still be shown.
     let failed = |window: &Window| {
         let shown = window.state().session().notices().shown();
@@ -347,14 +347,14 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     wait(&mut window, failed);
     assert!(shows(&window, EDITED), "it is not saved");
     // A file that cannot be opened raises no question about edits.
-    send(&mut window, Command::Shell(ShellCommand::Escape));
-    send(&mut window, Command::File(FileCommand::Open(folder.join("cut.meshbrush"))));
+    send(&mut window, Command::from(ShellCommand::Escape));
+    send(&mut window, Command::from(FileCommand::Open(folder.join("cut.meshbrush"))));
     let message = |window: &Window| {
         window.state().session().notices().shown().is_some_and(|n| n.text.contains("cut off"))
     };
     wait(&mut window, message);
     assert!(!shows(&window, "Save changes to “Radar threats”?") && shows(&window, EDITED));
-    send(&mut window, Command::File(FileCommand::Quit));
+    send(&mut window, Command::from(FileCommand::Quit));
     assert!(shows(&window, "Save changes to “Radar threats”?"));
 }
 
@@ -395,9 +395,9 @@ fn the_brush_is_kept_before_the_end_and_has_its_share_of_every_domain() {
     (tools.radius, tools.hardness, tools.erase_strength) = (1.5 * tools.radius, 0.9, 0.3);
     first.state_mut().store_brush(&mut stored);
     for example in [Example::Diamond, Example::Threats] {
-        send(&mut next, Command::File(FileCommand::OpenExample(example)));
+        send(&mut next, Command::from(FileCommand::OpenExample(example)));
         next.state_mut().load_brush(&stored);
-        send(&mut next, Command::File(FileCommand::OpenExample(Example::Threats)));
+        send(&mut next, Command::from(FileCommand::OpenExample(Example::Threats)));
         let tools = next.state().tools();
         assert_eq!((tools.hardness, tools.erase_strength), (0.9, 0.3));
         assert!((share(&next) / share(&first) - 1.0).abs() < 1e-12);

@@ -67,7 +67,7 @@ fn a_recipe_is_opened_by_name_and_edits_are_asked_about() {
     let file = recipe_in("open", STRAIT);
     let mut window = window();
     stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.2, 0.1));
-    send(&mut window, Command::File(FileCommand::Open(file)));
+    send(&mut window, Command::from(FileCommand::Open(file)));
     wait_until(&mut window, |window| shows(window, "Do not save"));
     window.get_by_role_and_label(Role::Button, "Do not save").click();
     window.run();
@@ -78,7 +78,7 @@ fn a_recipe_is_opened_by_name_and_edits_are_asked_about() {
 fn what_the_window_leaves_out_of_a_recipe_is_told() {
     let file = recipe_in("notes", &format!("{STRAIT}[[output]]\nfile = \"strait.vtu\"\n"));
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::Open(file)));
+    send(&mut window, Command::from(FileCommand::Open(file)));
     wait_until(&mut window, is_open);
     assert!(notice(&window).contains("The window writes no files of [[output]]"), "{}", notice(&window));
 }
@@ -96,10 +96,10 @@ fn a_mistake_in_a_recipe_is_reported_with_line_and_column() {
         ),
         ("fine", "[mesh]\nspacing = 1e-4\n", "spacing"),
     ] {
-        send(&mut window, Command::File(FileCommand::Open(recipe_in(name, text))));
+        send(&mut window, Command::from(FileCommand::Open(recipe_in(name, text))));
         let message = wait_for_notice(&mut window);
         assert!(message.contains(words), "{message}");
-        send(&mut window, Command::Shell(ShellCommand::Escape));
+        send(&mut window, Command::from(ShellCommand::Escape));
     }
     assert_eq!(fingerprint(&window), before);
 }

@@ -39,7 +39,7 @@ fn the_diamond_opens_by_menu_and_undo_stops_at_its_start() {
 fn every_example_opens_and_new_is_empty() {
     let mut window = window();
     for example in Example::ALL {
-        send(&mut window, Command::File(FileCommand::OpenExample(example)));
+        send(&mut window, Command::from(FileCommand::OpenExample(example)));
         assert!(triangles(&window) > 5000, "{}", example.name());
         assert_eq!(notice(&window), "");
     }
@@ -155,7 +155,7 @@ fn impossible_settings_are_refused_with_a_sentence() {
         assert!(notice(&window).ends_with('.'), "{setting:?}: {}", notice(&window));
         assert_eq!((fingerprint(&window), settings(&window).clone()), before, "{setting:?}");
         assert_eq!(entries(&window), 0);
-        send(&mut window, Command::Shell(ShellCommand::Escape));
+        send(&mut window, Command::from(ShellCommand::Escape));
         assert_eq!(notice(&window), "", "Escape dismisses it");
     }
 }
@@ -199,7 +199,7 @@ fn a_formula_typed_for_another_document_is_gone() {
     let field = "Target diameter h̄(x, y)";
     window.get_by_role_and_label(Role::TextInput, field).type_text("0.1*");
     window.run();
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     assert!(window.query_by_role_and_label(Role::TextInput, field).is_none(), "a paint layer is selected");
     super::select_base(&mut window);
     assert_eq!(value_of(&window, Role::TextInput, field), "0.2");

@@ -10,8 +10,8 @@ use super::{
 };
 use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::kit::Tab;
-use crate::app::widgets::format;
 use meshbrush_core::document::{Example, Setting, Settings};
+use meshbrush_ui::widgets::format;
 
 const KEEP: &str = "Keep the mesh";
 const APPLY: &str = "Apply anyway";
@@ -108,14 +108,14 @@ fn an_ordinary_edit_is_applied_at_once_and_says_what_it_did() {
     assert_eq!(changes(&window), ["–", "–"]);
     let before = triangles(&window) as i64;
     for h_risk in [0.002, 0.0017] {
-        send(&mut window, Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(h_risk))));
+        send(&mut window, Command::from(EditCommand::Set(Setting::DiameterAtRiskOne(h_risk))));
         let change = triangles(&window) as i64 - before;
         assert!(change > 1000);
         let text = format!("{} triangles", format::change(change));
         let changes = changes(&window);
         assert!(changes[0].starts_with(&text) && changes[1] == "–", "one gesture: {changes:?} {text}");
     }
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     set(&mut window, Setting::Gradation(Some(0.3)));
     assert!(changes(&window)[0] == "–" && changes(&window)[1].starts_with('+'), "{:?}", changes(&window));
 }
@@ -165,7 +165,7 @@ fn the_budgets_say_what_is_used_and_what_would_be_needed() {
 #[test]
 fn the_budget_counts_triangles_around_the_domain_and_says_so() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     crate::app::tests::wait_for_jobs(&mut window);
     open_tab(&mut window, Tab::Size);
     let in_domain = format::count(window.state().session().triangle_count() as u64);

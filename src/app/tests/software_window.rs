@@ -34,8 +34,8 @@ const ACTIONS: [fn(&mut Window); 8] = [
     |window| key(window, Modifiers::COMMAND, Key::Z),
     |window| key(window, Modifiers::NONE, Key::Q),
     |window| click(window, FREE, Modifiers::NONE),
-    |window| send(window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk))),
-    |window| send(window, Command::View(ViewCommand::SetOverlay(FieldOverlay::None))),
+    |window| send(window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Risk))),
+    |window| send(window, Command::from(ViewCommand::SetOverlay(FieldOverlay::None))),
 ];
 
 /// Returns the share of pixels that differ, and the first of them.

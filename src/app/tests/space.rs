@@ -31,8 +31,8 @@ fn hills() -> Window {
     };
     let mut layers = settings(&window).layers.clone();
     layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Layers(layers))));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(EditCommand::Set(Setting::Layers(layers))));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     wait_for_jobs(&mut window);
     key(&mut window, Modifiers::SHIFT, Key::V);
     wait_for_jobs(&mut window);
@@ -62,14 +62,14 @@ fn a_picture_of_the_mesh_is_in_space_as_the_view_is() {
     let mut window = hills();
     let picture = |window: &mut Window, name: &str| {
         let file = scratch(name);
-        send(window, Command::File(FileCommand::Export(file.clone())));
+        send(window, Command::from(FileCommand::Export(file.clone())));
         wait_for_jobs(window);
         std::fs::read(&file).ok()
     };
     let usual = picture(&mut window, "app-space.png").unwrap();
     send(
         &mut window,
-        Command::View(ViewCommand::Space(SpaceCommand::LookFrom(ViewDirection {
+        Command::from(ViewCommand::Space(SpaceCommand::LookFrom(ViewDirection {
             azimuth: 120.0,
             altitude: 30.0,
         }))),
@@ -86,7 +86,7 @@ fn a_picture_of_the_mesh_is_in_space_as_the_view_is() {
 fn a_link_shows_the_same_view_in_space() {
     let mut first = hills();
     let exaggerated = SpaceCommand::Exaggerate(Some(0.3));
-    send(&mut first, Command::View(ViewCommand::Space(exaggerated)));
+    send(&mut first, Command::from(ViewCommand::Space(exaggerated)));
     drag(&mut first, PointerButton::Middle, Modifiers::NONE, [50.0, -20.0]);
     let at = canvas(&first).center() + vec2(90.0, 40.0);
     wheel(&mut first, at, 300.0);
@@ -184,7 +184,7 @@ fn strokes_queries_and_pins_meet_the_surface() {
         let painted = window.state().tools().last_painted.unwrap();
         assert!(painted.distance(world) < 1e-3, "{painted} is not {world}");
     }
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     let at = seen(&window, dvec2(0.3, 0.42));
     press_at(&mut window, at, PointerButton::Primary, Modifiers::NONE);
     release_at(&mut window, at, PointerButton::Primary);
@@ -207,7 +207,7 @@ fn other_tools_say_that_they_work_in_the_plan() {
 fn hints_and_legend_are_those_of_the_view() {
     let mut window = hills();
     assert!(window.query_by_label_contains("Space pans").is_none());
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     window.run();
     assert!(window.query_by_label_contains("overlays are shown in the plan").is_some());
     key(&mut window, Modifiers::SHIFT, Key::V);
@@ -220,9 +220,9 @@ fn hints_and_legend_are_those_of_the_view() {
 fn heights_and_light_are_numbers() {
     let mut window = hills();
     let usual = sight(&window).camera.exaggeration();
-    send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Exaggerate(Some(3.0 * usual)))));
+    send(&mut window, Command::from(ViewCommand::Space(SpaceCommand::Exaggerate(Some(3.0 * usual)))));
     assert!((sight(&window).camera.exaggeration() / usual - 3.0).abs() < 1e-9);
-    send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Exaggerate(None))));
+    send(&mut window, Command::from(ViewCommand::Space(SpaceCommand::Exaggerate(None))));
     assert_eq!(sight(&window).camera.exaggeration(), usual);
     open_popup(&mut window, "View options");
     let fields = ["Heights ×", "Look to", "From above", "Light from", "Light above"];
@@ -233,7 +233,7 @@ fn heights_and_light_are_numbers() {
     let (seen, light) = (space.direction, space.light);
     assert_eq!(space.exaggeration, Some(12.0));
     assert_eq!([seen.azimuth, seen.altitude, light.azimuth, light.altitude], [40.0, 35.0, 100.0, 20.0]);
-    send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Toggle)));
+    send(&mut window, Command::from(ViewCommand::Space(SpaceCommand::Toggle)));
     assert!(
         window.query_by_role_and_label(Role::TextInput, "Look to").is_none(),
         "the plan has no direction"
@@ -243,9 +243,9 @@ fn heights_and_light_are_numbers() {
 #[test]
 fn centring_a_place_puts_the_surface_there_in_the_middle() {
     let mut window = hills();
-    send(&mut window, Command::View(ViewCommand::Zoom(4.0)));
+    send(&mut window, Command::from(ViewCommand::Zoom(4.0)));
     for world in [dvec2(0.17, 0.1), dvec2(0.6, 0.5)] {
-        send(&mut window, Command::View(ViewCommand::LookAt(world)));
+        send(&mut window, Command::from(ViewCommand::LookAt(world)));
         window.run();
         let off = seen(&window, world).distance(canvas(&window).center());
         assert!(off < 1.0, "{world} is {off} points from the middle");

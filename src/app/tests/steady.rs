@@ -54,13 +54,13 @@ fn click_paints(window: &mut Window, at: Pos2) -> bool {
 #[test]
 fn the_place_of_a_vanished_button_takes_no_click_for_half_a_second() {
     let mut window = quick_window();
-    let offer = Offer { label: "Try again", command: Command::Edit(EditCommand::EndGesture) };
+    let offer = Offer { label: "Try again", command: Command::from(EditCommand::EndGesture) };
     window.state_mut().session.notices_mut().report_with_offer("It failed.", offer);
     window.run();
     let button = window.get_by_role_and_label(Role::Button, "Try again").rect().center();
     window.hover_at(button);
     window.run();
-    send(&mut window, Command::Shell(crate::app::command::ShellCommand::DismissNotice));
+    send(&mut window, Command::from(crate::app::command::ShellCommand::DismissNotice));
     assert!(window.query_by_label("Try again").is_none());
     assert!(!click_paints(&mut window, button), "the click was meant for the button");
     assert!(click_paints(&mut window, button + vec2(0.0, 80.0)), "elsewhere the canvas takes clicks");

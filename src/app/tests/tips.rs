@@ -11,9 +11,11 @@ use super::{
     FREE, TALL, Window, canvas, choose, entries, key, open_popup, open_section, open_tab, send, wait_until,
     window_of,
 };
-use crate::app::command::StepCommand;
-use crate::app::command::{Command, EditCommand, InspectCommand, LayerCommand, ShellCommand, ThreatsCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
 use crate::app::features::ROWS;
+use crate::app::features::inspection::InspectCommand;
+use crate::app::features::stepping::StepCommand;
+use crate::app::features::threats::ThreatsCommand;
 use crate::app::kit::{Tab, all_tools};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::PieceChoice;
@@ -63,7 +65,7 @@ pub fn unexplained(window: &Window) -> Vec<String> {
 #[test]
 fn every_control_of_the_panels_has_a_sentence() {
     let mut window = window_of(vec2(TALL.x, 3000.0));
-    send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
+    send(&mut window, Command::from(InspectCommand::Query(FREE)));
     for section in ["Mesh", "Background picture", "Statistics"] {
         open_section(&mut window, section);
     }
@@ -79,7 +81,7 @@ fn every_control_of_the_panels_has_a_sentence() {
         assert_eq!(unexplained(&window), [""; 0], "{popup}");
         key(&mut window, Modifiers::NONE, Key::Escape);
     }
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(5.0)))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::Gradation(Some(5.0)))));
     open_tab(&mut window, Tab::Size);
     assert_eq!(unexplained(&window), [""; 0]);
     let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 };
@@ -104,26 +106,26 @@ fn every_control_of_the_panels_has_a_sentence() {
         .into_iter()
         .chain(depths)
     {
-        send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
+        send(&mut window, Command::from(LayerCommand::Add(Box::new(kind))));
         assert_eq!(unexplained(&window), [""; 0]);
     }
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
-    send(&mut window, Command::Threats(ThreatsCommand::Place(FREE)));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
+    send(&mut window, Command::from(ThreatsCommand::Place(FREE)));
     assert!(window.query_by_label("Selected threat").is_some());
     assert_eq!(unexplained(&window), [""; 0]);
     for tool in all_tools(ROWS) {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
     }
     // An edited document would be asked about before another one opens.
     for _ in 0..entries(&window) {
-        send(&mut window, Command::Edit(EditCommand::Undo));
+        send(&mut window, Command::from(EditCommand::Undo));
     }
     choose(&mut window, "Examples", "Aegean Sea");
     open_section(&mut window, "Fit to outline");
     wait_until(&mut window, |window| window.query_by_label("Misclassified").is_some());
     for tool in all_tools(ROWS) {
-        send(&mut window, Command::Shell(ShellCommand::Use(tool)));
+        send(&mut window, Command::from(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{} in a domain of polygons", tool.name);
     }
 }
@@ -131,13 +133,13 @@ fn every_control_of_the_panels_has_a_sentence() {
 #[test]
 fn every_control_of_the_steps_has_a_sentence() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.06))));
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Spacing(0.25))));
-    send(&mut window, Command::Steps(StepCommand::Begin(None)));
+    send(&mut window, Command::from(EditCommand::Set(Setting::SmallestDiameter(0.06))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::Spacing(0.25))));
+    send(&mut window, Command::from(StepCommand::Begin(None)));
     wait_until(&mut window, |window| window.query_by_label("Changed rows").is_some());
     open_section(&mut window, "Export");
     for moved in [0, 1, 5, 40] {
-        send(&mut window, Command::Steps(StepCommand::Move(moved)));
+        send(&mut window, Command::from(StepCommand::Move(moved)));
         assert_eq!(unexplained(&window), [""; 0], "{moved} steps");
     }
 }

@@ -136,7 +136,7 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
     let mut window = window_of(TALL);
     let legend = |window: &Window, level: u32| {
         let count = window.state().session().level_counts()[level as usize];
-        let count = crate::app::widgets::format::count(count as u64);
+        let count = meshbrush_ui::widgets::format::count(count as u64);
         window.get_by_label(&format!("Level {level}: {count} triangles")).rect().center()
     };
     open_tab(&mut window, Tab::Mesh);
@@ -173,7 +173,7 @@ fn the_bars_have_room_for_what_they_show_at_any_width() {
         for zoom in [1.0, 1e6] {
             let mut window = window_of(vec2(width, 600.0));
             window.hover_at(canvas(&window).center());
-            send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+            send(&mut window, Command::from(ViewCommand::Zoom(zoom)));
             let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, 600.0));
             // Rows of the side panel that are scrolled out of sight lie below the screen.
             let is_in_bar = |cell: &egui_kittest::Node<'_>| (570.0..600.0).contains(&cell.rect().top());

@@ -10,10 +10,10 @@ use meshbrush_core::document::Example;
 
 /// Opens an example and writes files of it. Returns their contents.
 fn written(window: &mut Window, example: Example, folder: &Path) -> Vec<Vec<u8>> {
-    send(window, Command::File(FileCommand::OpenExample(example)));
+    send(window, Command::from(FileCommand::OpenExample(example)));
     let (project, mesh) = (folder.join("saved.meshbrush"), folder.join("mesh.svg"));
-    send(window, Command::File(FileCommand::SaveTo(project.clone())));
-    send(window, Command::File(FileCommand::Export(mesh.clone())));
+    send(window, Command::from(FileCommand::SaveTo(project.clone())));
+    send(window, Command::from(FileCommand::Export(mesh.clone())));
     window.state().jobs.wait_for_writing(Duration::from_secs(60));
     [project, mesh].iter().map(|file| fs::read(file).unwrap()).collect()
 }

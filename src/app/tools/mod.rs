@@ -6,62 +6,41 @@
 //! row.
 
 mod kept;
+mod paint;
 mod pan;
+mod pen;
+mod settings;
 
 use std::collections::BTreeMap;
 
 use glam::DVec2;
 
 pub use kept::KeptBrush;
+pub use paint::{BrushMode, PaintKind};
 pub use pan::{PAN, move_view};
+pub use pen::{Pen, PenEffect};
+pub use settings::{AnySettings, ToolSettings, first_settings};
 
-use super::features::boundary::BoundaryTool;
-use super::features::domain::DomainTool;
-use super::features::painting::{BRUSH, BrushMode, ERASER, Pen};
-use super::features::regions::RegionTool;
-use super::widgets::Hint;
 use crate::app::kit::{FrameState, Tool};
-use meshbrush_core::layers::Quantity;
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_ui::widgets::Hint;
+use settings::SettingsOfTools;
 
 /// How often a tool is used before its hint goes away.
 const USES_WITH_HINT: u32 = 6;
-
-/// The kind of paint of the brush.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PaintKind {
-    /// Risk, which the transfer curve turns into a diameter.
-    Risk,
-    /// The target diameter itself.
-    Diameter,
-    /// The largest error from surfaces.
-    Error,
-}
-
-impl PaintKind {
-    /// Returns the kind of paint of a layer with this quantity.
-    pub fn of(quantity: Quantity) -> Self {
-        match quantity {
-            Quantity::Risk => Self::Risk,
-            Quantity::Diameter => Self::Diameter,
-            Quantity::Error => Self::Error,
-        }
-    }
-
-    /// Returns the quantity of layers that take this paint.
-    pub fn quantity(self) -> Quantity {
-        match self {
-            Self::Risk => Quantity::Risk,
-            Self::Diameter => Quantity::Diameter,
-            Self::Error => Quantity::Error,
-        }
-    }
-}
+/// Radius of the brush at first, as a share of the longer side of the domain.
+pub const FIRST_RADIUS: f64 = 0.06;
+/// Hardness of the brush at first.
+pub const FIRST_HARDNESS: f64 = 0.35;
+/// Strength of the brush and of the eraser at first.
+const FIRST_STRENGTHS: [f64; 2] = [0.8, 1.0];
 
 /// The selected tool, and the settings of all tools.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tools {
+    /// All tools, in the order of the tool strip.
+    all: Vec<Tool>,
     /// The tool that acts on the canvas.
     pub tool: Tool,
     /// The tool that was selected.
@@ -96,12 +75,8 @@ pub struct Tools {
     pub pen: Pen,
     /// The end of the last stroke, in world units.
     pub last_painted: Option<DVec2>,
-    /// The domain tool.
-    pub domain: DomainTool,
-    /// The region tool.
-    pub region: RegionTool,
-    /// The boundary tool.
-    pub boundary: BoundaryTool,
+    /// The settings of tools that only their features know.
+    settings: SettingsOfTools,
     /// Whether a tool was selected since [`Self::take_selection`].
     was_selected: bool,
     /// How often each tool was used, by its name.
@@ -109,20 +84,21 @@ pub struct Tools {
 }
 
 impl Tools {
-    /// Returns a brush that suits a domain whose longer side is `extent` and whose smallest diameter is
-    /// `h_min`, in world units.
-    pub fn for_domain(extent: f64, h_min: f64) -> Self {
+    /// Returns tools of which the first is selected, with a brush that suits a domain whose longer side is
+    /// `extent` and whose smallest diameter is `h_min`, in world units.
+    pub fn for_domain(all: Vec<Tool>, extent: f64, h_min: f64) -> Self {
+        let settings = all.iter().filter_map(|tool| tool.settings);
         Self {
-            tool: &BRUSH,
-            chosen: &BRUSH,
+            tool: all[0],
+            chosen: all[0],
             only_moves_view: false,
             kind: PaintKind::Risk,
             mode: BrushMode::BuildUp,
             extent,
-            radius: 0.06 * extent,
-            hardness: 0.35,
-            paint_strength: 0.8,
-            erase_strength: 1.0,
+            radius: FIRST_RADIUS * extent,
+            hardness: FIRST_HARDNESS,
+            paint_strength: FIRST_STRENGTHS[0],
+            erase_strength: FIRST_STRENGTHS[1],
             risk: 0.5,
             diameter: 2.0 * h_min,
             error: 1.0,
@@ -130,22 +106,41 @@ impl Tools {
             mirrored: [false; 2],
             pen: Pen::default(),
             last_painted: None,
-            domain: DomainTool::default(),
-            region: RegionTool::default(),
-            boundary: BoundaryTool::default(),
+            settings: SettingsOfTools::new(settings.map(|first| first())),
             was_selected: false,
             uses: BTreeMap::new(),
+            all,
         }
+    }
+
+    /// Returns all tools, in the order of the tool strip.
+    pub fn all(&self) -> &[Tool] {
+        &self.all
+    }
+
+    /// Returns the settings of a tool.
+    ///
+    /// # Panics
+    /// Panics where the window has no tool with such settings.
+    pub fn settings<S: ToolSettings>(&self) -> &S {
+        self.settings.get().expect("the window has the tool")
+    }
+
+    /// Returns the settings of a tool, to be changed.
+    ///
+    /// # Panics
+    /// Panics where the window has no tool with such settings.
+    pub fn settings_mut<S: ToolSettings>(&mut self) -> &mut S {
+        self.settings.get_mut().expect("the window has the tool")
     }
 
     /// Returns whether another tool, kind of paint, mode or amount is chosen than in `other`.
     pub fn differs_in_choice(&self, other: &Self) -> bool {
-        let choices =
-            |tools: &Self| (tools.tool, tools.kind, tools.mode, tools.domain.mode, tools.domain.adds);
+        let choices = |tools: &Self| (tools.tool, tools.kind, tools.mode);
         let amounts = |tools: &Self| [tools.paint_strength, tools.erase_strength, tools.risk];
-        let region = |tools: &Self| (tools.region.target, tools.region.shape(), tools.region.cuts);
-        let boundary = self.boundary.mode != other.boundary.mode || region(self) != region(other);
-        choices(self) != choices(other) || amounts(self) != amounts(other) || boundary
+        choices(self) != choices(other)
+            || amounts(self) != amounts(other)
+            || self.settings.differ_in_choice(&other.settings)
     }
 
     /// Selects a tool.
@@ -175,9 +170,15 @@ impl Tools {
         self.tool = if self.only_moves_view { &PAN } else { self.chosen };
     }
 
-    /// Selects the brush.
+    /// Selects the brush: the first tool that paints.
     pub fn select_brush(&mut self) {
-        self.select(&BRUSH);
+        let brush = self.all.iter().find(|tool| tool.brush.is_some()).copied();
+        self.select(brush.unwrap_or(self.all[0]));
+    }
+
+    /// Returns whether the tool that was selected is the first one.
+    pub fn has_first(&self) -> bool {
+        self.chosen == self.all[0]
     }
 
     /// Returns what is left when another document is opened, whose domain is that of [`Self::for_domain`]:
@@ -194,7 +195,7 @@ impl Tools {
             smoothing: self.smoothing,
             pen: self.pen,
             uses: self.uses,
-            ..Self::for_domain(extent, h_min)
+            ..Self::for_domain(self.all, extent, h_min)
         }
     }
 
@@ -238,12 +239,17 @@ impl Tools {
 
     /// Strength of the selected tool.
     pub fn strength(&self) -> f64 {
-        if self.tool == &ERASER { self.erase_strength } else { self.paint_strength }
+        if self.tool.erases { self.erase_strength } else { self.paint_strength }
+    }
+
+    /// Strength of the selected tool at first.
+    pub fn first_strength(&self) -> f64 {
+        FIRST_STRENGTHS[usize::from(self.tool.erases)]
     }
 
     /// Sets the strength of the selected tool.
     pub fn set_strength(&mut self, strength: f64) {
-        let own = if self.tool == &ERASER { &mut self.erase_strength } else { &mut self.paint_strength };
+        let own = if self.tool.erases { &mut self.erase_strength } else { &mut self.paint_strength };
         *own = strength.clamp(0.01, 1.0);
     }
 

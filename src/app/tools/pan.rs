@@ -6,8 +6,8 @@ use glam::dvec2;
 
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::{Gesture, Pointer, Press, ToolSpec};
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Moves the view.
 pub static PAN: ToolSpec = ToolSpec {
@@ -37,7 +37,7 @@ pub fn move_view(
     };
     // About what is in the middle of the canvas.
     if let Some(height) = space.height_at_px(space.camera.plan().half_size_px()) {
-        commands.push(Command::View(ViewCommand::Space(SpaceCommand::About(height))));
+        commands.push(Command::from(ViewCommand::Space(SpaceCommand::About(height))));
     }
     Box::new(Turning { last: press.at, button })
 }
@@ -60,7 +60,7 @@ impl Gesture for Turning {
         let by = at - self.last;
         let [turn, rise] = DEGREES_PER_POINT;
         let by = dvec2(f64::from(turn * by.x), f64::from(rise * by.y));
-        commands.push(Command::View(ViewCommand::Space(SpaceCommand::Turn(by))));
+        commands.push(Command::from(ViewCommand::Space(SpaceCommand::Turn(by))));
         self.last = at;
     }
 
@@ -84,7 +84,7 @@ impl Gesture for Panning {
     }
 
     fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        commands.push(Command::View(ViewCommand::Pan(pointer.px(at) - pointer.px(self.last))));
+        commands.push(Command::from(ViewCommand::Pan(pointer.px(at) - pointer.px(self.last))));
         self.last = at;
     }
 

@@ -7,6 +7,7 @@ use js_sys::{Function, Object, Reflect};
 use wasm_bindgen::prelude::*;
 
 use crate::app::App;
+use crate::app::features::stepping::Stepping;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
@@ -111,7 +112,7 @@ impl Herald {
 
     /// Tells the page what is new.
     pub fn tell(&mut self, app: &App) {
-        let (session, steps) = (&app.session, app.features.stepping.steps());
+        let (session, steps) = (&app.session, app.features.get::<Stepping>().steps());
         let (follower, document) = (session.follower(), session.document());
         let rests = follower.is_in_step(document) && document.is_stroke_drawn();
         let shown = session.notices().shown();

@@ -68,7 +68,7 @@ fn commands_for(names: Vec<PathBuf>) -> Vec<Command> {
     } else {
         names.into_iter().take(1).collect()
     };
-    wanted.into_iter().map(|name| Command::File(FileCommand::AddData(name))).collect()
+    wanted.into_iter().map(|name| Command::from(FileCommand::AddData(name))).collect()
 }
 
 /// Hands the files that were written since the last call to the browser, as downloads.

@@ -14,7 +14,9 @@ use web_sys::HtmlCanvasElement;
 
 use super::events::{Herald, Listeners};
 use super::{files, link};
-use crate::app::command::{BrushCommand, Command, FigureCommand, FileCommand, StepCommand, ViewCommand};
+use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
+use crate::app::features::report::FigureCommand;
+use crate::app::features::stepping::StepCommand;
 use crate::app::{App, set_up_gpu};
 use meshbrush_core::document::Example;
 use meshbrush_core::outline::DerivedMesh;
@@ -67,7 +69,7 @@ impl eframe::App for InPage {
 
     fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
         if let Some(problem) = self.1.0.lock().take() {
-            self.0.send(Command::File(FileCommand::Fail(problem)));
+            self.0.send(Command::from(FileCommand::Fail(problem)));
         }
         self.0.logic(ctx, frame);
         self.2.tell(&self.0);
@@ -131,7 +133,7 @@ impl Meshbrush {
         if let Some(mut app) = self.app() {
             (app.view.surrounds, app.view.strip) = (false, strip);
             let theme = if dark { ThemePreference::Dark } else { ThemePreference::Light };
-            app.send(Command::View(ViewCommand::Theme(theme)));
+            app.send(Command::from(ViewCommand::Theme(theme)));
             app.jobs.wake();
         }
     }
@@ -141,13 +143,13 @@ impl Meshbrush {
     #[wasm_bindgen(js_name = openFigure)]
     pub fn open_figure(&self, number: usize) -> bool {
         let figure = ReportFigure::ALL.get(number.wrapping_sub(1)).copied();
-        let command = figure.map(|figure| Command::Figure(FigureCommand::Open(figure)));
+        let command = figure.map(|figure| Command::from(FigureCommand::Open(figure)));
         command.is_some_and(|command| self.send(command))
     }
 
     /// Moves by so many steps of the refinement, where they are shown.
     pub fn step(&self, by: i32) -> bool {
-        self.send(Command::Steps(StepCommand::Move(by as isize)))
+        self.send(Command::from(StepCommand::Move(by as isize)))
     }
 
     /// Returns what tells meshes apart, as `meshbrush mesh` prints it; `undefined` while the mesh does not
@@ -178,13 +180,13 @@ impl Meshbrush {
     #[wasm_bindgen(js_name = openExample)]
     pub fn open_example(&self, name: &str) -> bool {
         let example = Example::ALL.into_iter().find(|example| example.name() == name);
-        example.is_some_and(|example| self.send(Command::File(FileCommand::OpenExample(example))))
+        example.is_some_and(|example| self.send(Command::from(FileCommand::OpenExample(example))))
     }
 
     /// Opens a file by its name and contents, as if it were dropped. Files that it names must have been given
     /// with `addFile` before.
     pub fn open(&self, name: &str, contents: Vec<u8>) -> bool {
-        self.send(Command::File(FileCommand::AddData(files::keep(name, contents))))
+        self.send(Command::from(FileCommand::AddData(files::keep(name, contents))))
     }
 
     /// Keeps a file that others name: a raster of a recipe.
@@ -230,15 +232,15 @@ impl Meshbrush {
         let mut app = self.app().ok_or_else(not_started)?;
         if app.tools.tool.brush.is_none() {
             let kind = app.tools.kind;
-            app.send(Command::Brush(BrushCommand::Kind(kind)));
+            app.send(Command::from(BrushCommand::Kind(kind)));
         }
         for (number, &[x, y, pressure]) in points.iter().enumerate() {
             let draw = if number == 0 { BrushCommand::BeginStroke } else { BrushCommand::DrawTo };
-            app.send(Command::Brush(BrushCommand::Pen(Some(pressure))));
-            app.send(Command::Brush(draw(DVec2::new(x, y))));
+            app.send(Command::from(BrushCommand::Pen(Some(pressure))));
+            app.send(Command::from(draw(DVec2::new(x, y))));
         }
-        app.send(Command::Brush(BrushCommand::EndStroke));
-        app.send(Command::Brush(BrushCommand::Pen(None)));
+        app.send(Command::from(BrushCommand::EndStroke));
+        app.send(Command::from(BrushCommand::Pen(None)));
         app.jobs.wake();
         Ok(())
     }

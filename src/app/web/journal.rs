@@ -15,12 +15,13 @@ use wasm_bindgen_futures::spawn_local;
 use crate::app::clock::{Duration, Instant};
 use crate::app::command::Command;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::kit::EditRecorder;
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
-use crate::app::widgets::Answer;
 use meshbrush_io::io::project::{self, Project, ProjectPacking};
 use meshbrush_mesh::mesh::Progress;
+use meshbrush_ui::widgets::Answer;
 
 #[wasm_bindgen(module = "/web/storage.js")]
 extern "C" {
@@ -224,19 +225,20 @@ impl Came {
     }
 }
 
-/// Keeps finished gestures.
-pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &ProjectFile) {
-    if session.document().is_in_gesture() {
-        return;
-    }
-    if !session.document_mut().take_edits().is_empty() {
-        if project.is_edited(session) {
-            keeper.edited.get_or_insert_with(Instant::now);
-        } else {
-            keeper.note_saved(project);
+impl EditRecorder for JournalKeeper {
+    fn record(&mut self, session: &mut Session, project: &ProjectFile) {
+        if session.document().is_in_gesture() {
+            return;
         }
+        if !session.document_mut().take_edits().is_empty() {
+            if project.is_edited(session) {
+                self.edited.get_or_insert_with(Instant::now);
+            } else {
+                self.note_saved(project);
+            }
+        }
+        self.advance(session, project);
     }
-    keeper.advance(session, project);
 }
 
 /// Asks whether to restore what an earlier tab left behind.

@@ -19,9 +19,6 @@ pub use file_dialog::{ask, has_dialog};
 pub use files::take_dropped;
 pub use pen::take_pen;
 
-/// Whether the window is in a page of a browser.
-pub const IS_PAGE: bool = true;
-
 /// Returns the address of the page, without the part after `#`.
 pub fn address() -> String {
     let address = web_sys::window().and_then(|window| window.location().href().ok()).unwrap_or_default();

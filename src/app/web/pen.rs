@@ -12,5 +12,5 @@ extern "C" {
 /// Returns the command that notes the pressure of a pen, if it has changed since the last frame.
 pub fn take_pen() -> Option<Command> {
     let pressure = pen()?;
-    Some(Command::Brush(BrushCommand::Pen((pressure >= 0.0).then_some(pressure))))
+    Some(Command::from(BrushCommand::Pen((pressure >= 0.0).then_some(pressure))))
 }

@@ -27,6 +27,17 @@ pub struct PathInCode {
     pub segments: Vec<String>,
 }
 
+/// A name that a `use` brings into a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Import {
+    /// The name in the file: the last segment, or what stands after `as`.
+    pub name: String,
+    /// The complete path, as in [`PathInCode`].
+    pub segments: Vec<String>,
+    /// Whether it has a visibility of its own: other files can import the name from here.
+    pub is_reexport: bool,
+}
+
 /// A function with a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
@@ -49,13 +60,14 @@ pub struct SourceFile {
 }
 
 /// The folders of source, those of the packages that others depend on first.
-pub const SOURCES: [&str; 7] = [
+pub const SOURCES: [&str; 8] = [
     "crates/mesh/src",
     "crates/core/src",
     "crates/study/src",
     "crates/io/src",
     "crates/render/src",
     "crates/cli/src",
+    "crates/ui/src",
     "src",
 ];
 
@@ -120,12 +132,35 @@ impl SourceFile {
     /// Returns every path with at least two segments; `use` trees are expanded. `self` and `super` are
     /// resolved to paths that begin with `crate`.
     pub fn paths(&self) -> Vec<PathInCode> {
+        self.named().into_iter().map(|(path, _)| path).collect()
+    }
+
+    /// Returns the segments of the paths that are in no `use`.
+    pub fn paths_outside_use(&self) -> Vec<Vec<String>> {
+        let named = self.named().into_iter().filter(|(_, import)| import.is_none());
+        named.map(|(path, _)| path.segments).collect()
+    }
+
+    /// Returns what the `use` trees of the file bring into it.
+    pub fn imports(&self) -> Vec<Import> {
+        let with_path = |(path, import): (PathInCode, Option<Import>)| {
+            let mut segments = path.segments;
+            // `a::b::{self}` imports `a::b`.
+            segments.pop_if(|last| last == "self");
+            Some(Import { segments, ..import? })
+        };
+        self.named().into_iter().filter_map(with_path).collect()
+    }
+
+    /// Returns every path, and where it is of a `use` what it imports, still without segments.
+    fn named(&self) -> Vec<(PathInCode, Option<Import>)> {
         let mut found = Vec::new();
         let mut inline: Vec<(String, usize)> = Vec::new();
         let (mut depth, mut at) = (0, 0);
         while at < self.tokens.len() {
-            let module: Vec<String> =
-                self.module.iter().cloned().chain(inline.iter().map(|(name, _)| name.clone())).collect();
+            let module = || -> Vec<String> {
+                self.module.iter().cloned().chain(inline.iter().map(|(name, _)| name.clone())).collect()
+            };
             match self.text(at) {
                 "mod" if self.text(at + 2) == "{" => inline.push((self.text(at + 1).to_owned(), depth)),
                 "{" => depth += 1,
@@ -134,9 +169,13 @@ impl SourceFile {
                     inline.retain(|&(_, outside)| outside < depth);
                 }
                 "use" if is_name(self.text(at + 1)) || matches!(self.text(at + 1), "{" | "::") => {
+                    let is_reexport = at > 0 && matches!(self.text(at - 1), "pub" | ")");
                     let mut leaves = Vec::new();
                     at = self.use_tree(at + 1, &mut Vec::new(), &mut leaves);
-                    found.extend(leaves.into_iter().map(|path| resolved(path, &module)));
+                    found.extend(leaves.into_iter().map(|(path, name)| {
+                        let import = Import { name, segments: Vec::new(), is_reexport };
+                        (resolved(path, &module()), Some(import))
+                    }));
                     continue;
                 }
                 _ if self.begins_path(at) => {
@@ -146,7 +185,7 @@ impl SourceFile {
                         path.segments.push(self.text(at + 2).to_owned());
                         at += 2;
                     }
-                    found.push(resolved(path, &module));
+                    found.push((resolved(path, &module()), None));
                 }
                 _ => {}
             }
@@ -188,10 +227,16 @@ impl SourceFile {
         is_name(self.text(at)) && self.text(at + 1) == "::" && is_name(self.text(at + 2))
     }
 
-    /// Expands the tree of a `use` that begins at `at`. Returns where it ends.
-    fn use_tree(&self, mut at: usize, before: &mut Vec<String>, leaves: &mut Vec<PathInCode>) -> usize {
+    /// Expands the tree of a `use` that begins at `at`, with the names that it imports. Returns where it ends.
+    fn use_tree(
+        &self,
+        mut at: usize,
+        before: &mut Vec<String>,
+        leaves: &mut Vec<(PathInCode, String)>,
+    ) -> usize {
         let kept = before.len();
         let line = self.tokens.get(at).map_or(0, |token| token.line);
+        let mut alias = None;
         loop {
             match self.text(at) {
                 "::" => at += 1,
@@ -204,7 +249,10 @@ impl SourceFile {
                     before.truncate(kept);
                     return at + 1;
                 }
-                "as" => at += 2,
+                "as" => {
+                    alias = Some(self.text(at + 1).to_owned());
+                    at += 2;
+                }
                 name if is_name(name) || name == "*" => {
                     before.push(name.to_owned());
                     at += 1;
@@ -212,7 +260,9 @@ impl SourceFile {
                 _ => break,
             }
         }
-        leaves.push(PathInCode { line, segments: before.clone() });
+        // `a::b::{self}` is the name `b`.
+        let name = before.iter().rev().find(|name| *name != "self").cloned().unwrap_or_default();
+        leaves.push((PathInCode { line, segments: before.clone() }, alias.unwrap_or(name)));
         before.truncate(kept);
         at
     }

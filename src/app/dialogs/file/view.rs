@@ -11,16 +11,16 @@ use eframe::egui::{
 use super::{Contents, FileDialog};
 use crate::app::background::{Row, WorkId};
 use crate::app::file_kinds::EXPORT_MESH;
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{
-    ActionButton, ButtonKind, FileRow, Icon, TextError, TextRow, ToolButton, bytes_row, dialog, dialog_title,
-    dropdown_row, format,
-};
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
 use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::{ExportFormat, Look};
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{
+    ActionButton, ButtonKind, FileRow, Icon, TextError, TextRow, ToolButton, bytes_row, dialog, dialog_title,
+    dropdown_row, format,
+};
 
 const WIDTH: f32 = 600.0;
 /// Height of the list.

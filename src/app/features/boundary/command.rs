@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{BoundaryToolMode, OpenedBoundary};
+use crate::app::command::CommandSet;
 use meshbrush_io::io::settings::SavedOpen;
 
 /// The commands of the boundary tool.
@@ -23,3 +24,5 @@ pub enum BoundaryCommand {
     /// Sets the depth beyond which the boundary is opened, in metres.
     Level(f64),
 }
+
+impl CommandSet for BoundaryCommand {}

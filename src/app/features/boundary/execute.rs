@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::opening::{open_boundary, set_opened};
 use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode, PIECES, entries};
+use crate::app::features::boundary::BoundaryTool;
 use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_core::domain::BoundaryPieces;
 use meshbrush_core::layers::Layer;
@@ -17,22 +18,23 @@ impl Feature for Boundary {
             BoundaryCommand::Click(point, reach) => click(point, reach, ctx),
             BoundaryCommand::Select(point) => {
                 ctx.tools.select(&BOUNDARY);
-                ctx.tools.boundary.selected = Some(point);
+                ctx.tools.settings_mut::<BoundaryTool>().selected = Some(point);
                 ctx.view.reveal(point);
             }
             BoundaryCommand::Mode(mode) => {
                 ctx.tools.select(&BOUNDARY);
-                ctx.tools.boundary.mode = mode;
+                ctx.tools.settings_mut::<BoundaryTool>().mode = mode;
             }
             BoundaryCommand::Join => {
-                let selected = |pieces: &BoundaryPieces| ctx.tools.boundary.selected_of(pieces);
+                let selected =
+                    |pieces: &BoundaryPieces| ctx.tools.settings::<BoundaryTool>().selected_of(pieces);
                 let marks =
                     ctx.session.changed_marks(|pieces, marks| pieces.joined(marks, selected(pieces)?));
                 ctx.session.set_marks(marks);
             }
             BoundaryCommand::Open(entry) => open_boundary(ctx.session, ctx.background, entry),
             BoundaryCommand::SetOpened(opened) => set_opened(*opened, ctx),
-            BoundaryCommand::Level(level) => ctx.tools.boundary.level = level,
+            BoundaryCommand::Level(level) => ctx.tools.settings_mut::<BoundaryTool>().level = level,
         }
     }
 
@@ -48,7 +50,7 @@ impl Feature for Boundary {
 /// Selects or splits what is at a point, at most `reach` away.
 fn click(point: DVec2, reach: f64, ctx: &mut Ctx<'_>) {
     ctx.tools.note_use(&BOUNDARY);
-    if ctx.tools.boundary.mode == BoundaryToolMode::Split {
+    if ctx.tools.settings::<BoundaryTool>().mode == BoundaryToolMode::Split {
         let marks = ctx.session.changed_marks(|pieces, marks| pieces.split(marks, point, reach));
         return ctx.session.set_marks(marks);
     }
@@ -56,5 +58,5 @@ fn click(point: DVec2, reach: f64, ctx: &mut Ctx<'_>) {
         let (piece, _) = pieces.nearest(point, reach)?;
         Some(pieces.list()[piece].middle())
     });
-    ctx.tools.boundary.selected = piece;
+    ctx.tools.settings_mut::<BoundaryTool>().selected = piece;
 }

@@ -12,5 +12,5 @@ pub static OPEN_IN_POLYGONS: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    ..FileKind::new(|path| Command::Boundary(BoundaryCommand::Open(SavedOpen::Polygons(path))))
+    ..FileKind::new(|path| Command::from(BoundaryCommand::Open(SavedOpen::Polygons(path))))
 };

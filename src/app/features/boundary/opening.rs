@@ -40,9 +40,7 @@ pub fn open_boundary(session: &Session, background: &mut Background, entry: Save
         _ => "the boundary".into(),
     };
     background.start(Aim::Read, Path::new(&shown), move |meter| match opened(settings, entry, meter) {
-        Ok(opened) => {
-            Outcome::PartRead(vec![Command::Boundary(BoundaryCommand::SetOpened(Box::new(opened)))])
-        }
+        Ok(opened) => Outcome::PartRead(vec![Command::from(BoundaryCommand::SetOpened(Box::new(opened)))]),
         Err(problem) => Outcome::NotRead(problem),
     });
 }

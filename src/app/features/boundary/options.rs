@@ -5,10 +5,11 @@ use eframe::egui::Ui;
 
 use super::{BoundaryCommand, BoundaryToolMode};
 use crate::app::command::Command;
+use crate::app::features::boundary::BoundaryTool;
 use crate::app::kit::{FrameState, StripItem, name_field, set_once};
-use crate::app::widgets::{ActionButton, segmented};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
+use meshbrush_ui::widgets::{ActionButton, segmented};
 
 /// What a click does, and what can be done with the selected piece.
 pub static BOUNDARY_OPTIONS: [StripItem; 3] = [
@@ -20,14 +21,14 @@ pub static BOUNDARY_OPTIONS: [StripItem; 3] = [
 /// Returns the pieces and the number of the selected one.
 fn selected<'a>(state: &FrameState<'a>) -> Option<(&'a BoundaryPieces, usize)> {
     let pieces = state.session.boundary_pieces()?;
-    Some((pieces, state.tools.boundary.selected_of(pieces)?))
+    Some((pieces, state.tools.settings::<BoundaryTool>().selected_of(pieces)?))
 }
 
 fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut mode = state.tools.boundary.mode;
+    let mut mode = state.tools.settings::<BoundaryTool>().mode;
     let choices = [(BoundaryToolMode::Select, "Select"), (BoundaryToolMode::Split, "Split")];
     if segmented(ui, "What a click does", &mut mode, &choices).changed() {
-        commands.push(Command::Boundary(BoundaryCommand::Mode(mode)));
+        commands.push(Command::from(BoundaryCommand::Mode(mode)));
     }
 }
 

@@ -4,15 +4,16 @@ use eframe::egui::{Key, ScrollArea, Ui};
 
 use super::{BoundaryCommand, OPEN_IN_POLYGONS};
 use crate::app::command::{Command, FileCommand, ShellCommand};
+use crate::app::features::boundary::BoundaryTool;
 use crate::app::kit::{FrameState, Panel, Tab, remark, set_once};
-use crate::app::widgets::{
-    ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
-};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{BoundaryPieces, BoundaryType};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::settings::SavedOpen;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{
+    ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
+};
 
 /// The pieces, and what is known of the selected one.
 pub static PIECES: Panel = Panel { name: "boundary", tab: Tab::Domain, place: 2, show };
@@ -34,7 +35,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         });
         return;
     };
-    let selected = state.tools.boundary.selected_of(pieces);
+    let selected = state.tools.settings::<BoundaryTool>().selected_of(pieces);
     let lost = state.session.lost_boundary_pieces().unwrap_or_default();
     let present = pieces.list().len() - lost.len();
     let note = format::count(present as u64);
@@ -59,22 +60,22 @@ fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     remark(ui, "Open in one step where the sea goes on. Islands stay land.");
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Along the frame")).clicked() {
-            commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Frame)));
+            commands.push(Command::from(BoundaryCommand::Open(SavedOpen::Frame)));
         }
         if ui.add(ActionButton::new("In polygons…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&OPEN_IN_POLYGONS)));
+            commands.push(Command::from(FileCommand::Ask(&OPEN_IN_POLYGONS)));
         }
     });
     ui.add_space(4.0);
-    let mut level = state.tools.boundary.level;
+    let mut level = state.tools.settings::<BoundaryTool>().level;
     let row = NumberRow::new("Deeper than", &mut level).range(f64::MIN..=f64::MAX).unit("m");
     if row.help("The depth of water beyond which the boundary is opened.").show(ui).changed() {
-        commands.push(Command::Boundary(BoundaryCommand::Level(level)));
+        commands.push(Command::from(BoundaryCommand::Level(level)));
     }
     let has_depths = DepthSurface::of(&state.session.document().settings().layers).is_some();
     let deeper = ActionButton::new("Open where deeper");
     if ui.add_enabled_ui(has_depths, |ui| ui.add(deeper)).inner.clicked() {
-        commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Deeper(level))));
+        commands.push(Command::from(BoundaryCommand::Open(SavedOpen::Deeper(level))));
     }
     ui.add_space(4.0);
     box_row(ui, state, commands);
@@ -91,9 +92,9 @@ fn box_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if is_entered && !text.trim().is_empty() {
         commands.push(match SavedOpen::parse(&text) {
-            Ok(entry @ SavedOpen::Box(_)) => Command::Boundary(BoundaryCommand::Open(entry)),
-            Ok(_) => Command::Shell(ShellCommand::Report(format!("“{text}” is no box: {BOX_RULE}"))),
-            Err(problem) => Command::Shell(ShellCommand::Report(problem)),
+            Ok(entry @ SavedOpen::Box(_)) => Command::from(BoundaryCommand::Open(entry)),
+            Ok(_) => Command::from(ShellCommand::Report(format!("“{text}” is no box: {BOX_RULE}"))),
+            Err(problem) => Command::from(ShellCommand::Report(problem)),
         });
     }
     ui.data_mut(|data| data.insert_temp(id, text));
@@ -141,7 +142,7 @@ fn list(
         let help = format!("{what}; its kind is {kind}, its type {boundary_type}. A click selects it.");
         let row = ValueRow::new(&piece.name, &value).help(&help).stands_out(selected == Some(number));
         if row.link().show(ui).clicked() {
-            commands.push(Command::Boundary(BoundaryCommand::Select(piece.middle())));
+            commands.push(Command::from(BoundaryCommand::Select(piece.middle())));
         }
     }
     if pieces.list().len() > MOST_ROWS {

@@ -6,10 +6,11 @@ use glam::DVec2;
 use super::{BOUNDARY_OPTIONS, BoundaryCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
-use crate::app::theme::font;
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
+use crate::app::tools::{ToolSettings, first_settings};
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
+use meshbrush_ui::theme::font;
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {
@@ -21,17 +22,18 @@ pub static BOUNDARY: ToolSpec = ToolSpec {
     paint,
     press: |press, pointer, commands| {
         let reach = REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
-        commands.push(Command::Boundary(BoundaryCommand::Click(pointer.world(press.at), reach)));
+        commands.push(Command::from(BoundaryCommand::Click(pointer.world(press.at), reach)));
         None
     },
     menu: |state, point| {
         let reach = REACH_POINTS * state.view.world_per_px();
-        let click = Command::Boundary(BoundaryCommand::Click(point, reach));
-        match state.tools.boundary.mode {
+        let click = Command::from(BoundaryCommand::Click(point, reach));
+        match state.tools.settings::<BoundaryTool>().mode {
             BoundaryToolMode::Select => vec![("Select the piece here", click)],
             BoundaryToolMode::Split => vec![("Split the boundary here", click)],
         }
     },
+    settings: Some(first_settings::<BoundaryTool>),
     ..ToolSpec::new("Boundary", Key::N, Icon::BOUNDARY)
 };
 
@@ -76,6 +78,12 @@ pub struct BoundaryTool {
     pub level: f64,
 }
 
+impl ToolSettings for BoundaryTool {
+    fn differs_in_choice(&self, other: &Self) -> bool {
+        self.mode != other.mode
+    }
+}
+
 impl Default for BoundaryTool {
     fn default() -> Self {
         Self { mode: BoundaryToolMode::default(), selected: None, level: USUAL_LEVEL }
@@ -110,7 +118,7 @@ fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let Some(pieces) = state.session.boundary_pieces() else { return };
     let reach = REACH_POINTS * f64::from(over.painter.pixels_per_point()) * state.view.world_per_px();
     let hovered = state.pointer.and_then(|at| pieces.nearest(at, reach)).map(|(piece, _)| piece);
-    let selected = state.tools.boundary.selected_of(pieces);
+    let selected = state.tools.settings::<BoundaryTool>().selected_of(pieces);
     let mut lengths = Vec::new();
     for (number, piece) in pieces.list().iter().enumerate() {
         let stands_out = Some(number) == hovered || Some(number) == selected;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::DomainToolMode;
+use crate::app::command::CommandSet;
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{CutShape, DepthContour, Domain};
 use meshbrush_core::layers::LayerId;
@@ -50,6 +51,8 @@ pub enum DomainCommand {
     /// Takes over an outline that was read or found.
     SetOutline(Box<OutlineChange>),
 }
+
+impl CommandSet for DomainCommand {}
 
 /// An outline that was read for a domain.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,16 +4,17 @@ use eframe::egui::Key;
 
 use super::{DOMAIN, DomainCommand, DomainToolMode};
 use crate::app::command::Command;
+use crate::app::features::domain::DomainTool;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tools = state.tools;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Domain(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::from(command));
     let mode = |title: &str, mode| {
-        let current = tools.tool == &DOMAIN && tools.domain.mode == mode;
+        let current = tools.tool == &DOMAIN && tools.settings::<DomainTool>().mode == mode;
         item(title, DomainCommand::Mode(mode)).checked(current)
     };
-    let adds = tools.domain.adds;
+    let adds = tools.settings::<DomainTool>().adds;
     let mut items = vec![
         mode("Cut domain with the brush", DomainToolMode::Brush).group(),
         mode("Cut domain with a rectangle", DomainToolMode::Rectangle),
@@ -24,7 +25,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .only("with the domain tool", tools.tool == &DOMAIN)
             .checked(adds),
     ];
-    if !tools.domain.corners.is_empty() {
+    if !tools.settings::<DomainTool>().corners.is_empty() {
         items.push(
             item("Close the polygon", DomainCommand::ClosePolygon)
                 .key(Key::Enter)

@@ -7,6 +7,7 @@ use super::load::{
 use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
 };
+use crate::app::features::domain::DomainTool;
 use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::CutShape;
 
@@ -22,7 +23,7 @@ impl Feature for DomainEditor {
     };
 
     fn execute(&mut self, command: DomainCommand, ctx: &mut Ctx<'_>) {
-        let tool = &mut ctx.tools.domain;
+        let tool = ctx.tools.settings_mut::<DomainTool>();
         match command {
             DomainCommand::Reshape(cut_shape, adds) => reshape(cut_shape, adds, ctx),
             DomainCommand::AddCorner(corner) => tool.corners.push(corner),
@@ -37,7 +38,7 @@ impl Feature for DomainEditor {
             DomainCommand::ClosePolygon => close_polygon(ctx),
             DomainCommand::Mode(mode) => {
                 ctx.tools.select(&DOMAIN);
-                ctx.tools.domain.mode = mode;
+                ctx.tools.settings_mut::<DomainTool>().mode = mode;
             }
             DomainCommand::Adds(adds) => tool.adds = adds,
             DomainCommand::Choose(path) => choose_plane(ctx.background, &path),
@@ -63,7 +64,7 @@ impl Feature for DomainEditor {
     }
 
     fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
-        !std::mem::take(&mut ctx.tools.domain.corners).is_empty()
+        !std::mem::take(&mut ctx.tools.settings_mut::<DomainTool>().corners).is_empty()
     }
 }
 
@@ -93,10 +94,10 @@ fn reshape(cut_shape: CutShape, adds: bool, ctx: &mut Ctx<'_>) {
 }
 
 fn close_polygon(ctx: &mut Ctx<'_>) {
-    if ctx.tools.domain.corners.len() < 3 {
+    if ctx.tools.settings::<DomainTool>().corners.len() < 3 {
         return ctx.session.tell("A polygon needs three corners: click to set another one.".into());
     }
-    let ring = std::mem::take(&mut ctx.tools.domain.corners);
-    reshape(CutShape::Ring(ring), ctx.tools.domain.adds, ctx);
+    let ring = std::mem::take(&mut ctx.tools.settings_mut::<DomainTool>().corners);
+    reshape(CutShape::Ring(ring), ctx.tools.settings::<DomainTool>().adds, ctx);
     ctx.session.end_gesture();
 }

@@ -1,6 +1,7 @@
 //! The kinds of files that domains are read from.
 
-use crate::app::command::{Command, DomainCommand};
+use crate::app::command::Command;
+use crate::app::features::domain::DomainCommand;
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_io::io::shape_format;
 
@@ -11,8 +12,8 @@ pub static OPEN_DOMAIN: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    command_at_start: |path| Command::Domain(DomainCommand::OpenFirst(path)),
-    ..FileKind::new(|path| Command::Domain(DomainCommand::Choose(path)))
+    command_at_start: |path| Command::from(DomainCommand::OpenFirst(path)),
+    ..FileKind::new(|path| Command::from(DomainCommand::Choose(path)))
 };
 
 /// Polygons as the domain of a new document, in the coordinates of their file.
@@ -22,7 +23,7 @@ pub static OPEN_DOMAIN_AS_IT_IS: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    ..FileKind::new(|path| Command::Domain(DomainCommand::Open(path)))
+    ..FileKind::new(|path| Command::from(DomainCommand::Open(path)))
 };
 
 /// Polygons on the Earth as the domain of a new document, in the plane of a projection.
@@ -32,7 +33,7 @@ pub static OPEN_DOMAIN_IN_METRES: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    ..FileKind::new(|path| Command::Domain(DomainCommand::OpenInMetres(path)))
+    ..FileKind::new(|path| Command::from(DomainCommand::OpenInMetres(path)))
 };
 
 /// Land or coasts, whose sea is the domain of a new document.
@@ -43,7 +44,7 @@ pub static OPEN_SEA: FileKind = FileKind {
     contents: "Land or coasts",
     folder: "domains",
     is_of_sea: true,
-    ..FileKind::new(|path| Command::Domain(DomainCommand::OpenSea(path)))
+    ..FileKind::new(|path| Command::from(DomainCommand::OpenSea(path)))
 };
 
 /// Polygons that are added to the domain of the document.
@@ -53,7 +54,7 @@ pub static ADD_OUTLINE: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    ..FileKind::new(|path| Command::Domain(DomainCommand::AddOutline(path)))
+    ..FileKind::new(|path| Command::from(DomainCommand::AddOutline(path)))
 };
 
 /// The uses of a file that the domain has.

@@ -6,9 +6,9 @@ use glam::DVec2;
 use crate::app::command::{Command, ViewCommand};
 use crate::app::derivation::Derived;
 use crate::app::kit::{FrameState, Panel, Tab};
-use crate::app::widgets::{Section, ValueRow, format, value_row};
 use meshbrush_core::domain::{FitQuality, Region};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
 
 /// Side of the area that is shown around a place, in diameters at the outline.
 const AREA_IN_DIAMETERS: f64 = 24.0;
@@ -136,7 +136,7 @@ fn go_to(row: &eframe::egui::Response, place: DVec2, state: &FrameState<'_>, com
     let settings = state.session.follower().settings();
     let diameter = settings.boundary.diameter().unwrap_or(settings.spacing);
     if row.clicked() {
-        commands.push(Command::View(ViewCommand::ShowArea(Rect::around(
+        commands.push(Command::from(ViewCommand::ShowArea(Rect::around(
             place,
             0.5 * AREA_IN_DIAMETERS * diameter,
         ))));

@@ -8,7 +8,6 @@ use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened, ShellCommand};
 use crate::app::kit::seen_shapes;
 use crate::app::session::Session;
-use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, DepthContour, OutlineOnEarth};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
@@ -19,6 +18,7 @@ use meshbrush_io::io::recipe::{self, OutlineSource};
 use meshbrush_io::io::{self, FileCoordinates, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::format;
 
 /// The plane in which polygons become a domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,7 @@ pub fn choose_plane(background: &mut Background, path: &Path) {
         // Lines are coasts: there is no domain of their own.
         if are_longitudes(&shapes.coordinates) || shapes.shapes.polygons.is_empty() {
             let asked = Arc::new(seen_shapes(&file, &shapes));
-            return Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(asked))]);
+            return Outcome::PartRead(vec![Command::from(ShellCommand::AskRole(asked))]);
         }
         match io::shape_format::read_outline(&file, meter) {
             Ok(outline) => open_unasked(&file, outline),
@@ -62,7 +62,7 @@ pub fn choose_plane(background: &mut Background, path: &Path) {
 pub fn load_sea(background: &mut Background, path: &Path) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match sea_of(&file, meter) {
-        Ok((document, note)) => opened(&file, Some(Command::Shell(ShellCommand::Tell(note))), Ok(document)),
+        Ok((document, note)) => opened(&file, Some(Command::from(ShellCommand::Tell(note))), Ok(document)),
         Err(problem) => Outcome::NotRead(problem),
     });
 }
@@ -99,7 +99,7 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
         let note = format!(
             "{name} names no coordinate system that is known here, so the document has no unit. Set one with “Unit” in the tab Domain."
         );
-        let note = (unit == LengthUnit::None).then_some(Command::Shell(ShellCommand::Tell(note)));
+        let note = (unit == LengthUnit::None).then_some(Command::from(ShellCommand::Tell(note)));
         return opened(file, note, document_of(file, outline, DomainPlane::OfFile, None));
     }
     let are_longitudes = are_longitudes(&outline.coordinates);
@@ -112,20 +112,20 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
                         "{name} has longitudes and latitudes. It was opened in metres, in a {plane} plane."
                     ),
                     "Open in degrees",
-                    Box::new(Command::Domain(DomainCommand::Open(file.to_owned()))),
+                    Box::new(Command::from(DomainCommand::Open(file.to_owned()))),
                 ),
                 false => {
                     ShellCommand::Tell(format!("{name} is in metres, and was opened in a {plane} plane."))
                 }
             };
-            opened(file, Some(Command::Shell(note)), Ok(document))
+            opened(file, Some(Command::from(note)), Ok(document))
         }
         Err(problem) => {
             let note =
                 format!("{name} was opened in its own coordinates, as metres do not suit it. {problem}");
             opened(
                 file,
-                Some(Command::Shell(ShellCommand::Tell(note))),
+                Some(Command::from(ShellCommand::Tell(note))),
                 document_of(file, outline, DomainPlane::OfFile, None),
             )
         }
@@ -175,7 +175,7 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
                     OutlineChange { name: name_of(&file), before: settings.domain, setting, news: None };
                 Outcome::Read {
                     path: file,
-                    commands: vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))],
+                    commands: vec![Command::from(DomainCommand::SetOutline(Box::new(change)))],
                 }
             }
             Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
@@ -255,7 +255,7 @@ fn find_outline(
         Ok((setting, what)) => {
             let news = Some(format!("The domain was replaced: it {what}"));
             let change = OutlineChange { name, before: settings.domain, setting, news };
-            Outcome::PartRead(vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))])
+            Outcome::PartRead(vec![Command::from(DomainCommand::SetOutline(Box::new(change)))])
         }
         Err(error) => Outcome::NotRead(format!("{name}: {error}")),
     });

@@ -4,20 +4,22 @@ use eframe::egui::Ui;
 
 use super::{DomainCommand, DomainToolMode};
 use crate::app::command::Command;
+use crate::app::features::domain::DomainTool;
 use crate::app::kit::{FrameState, StripItem, radius_row};
-use crate::app::widgets::segmented;
+use meshbrush_ui::widgets::segmented;
 
 /// What cuts the domain, whether it adds, and the size of the brush.
 pub static DOMAIN_OPTIONS: [StripItem; 3] = [
     StripItem::new(304.0, 0, mode_row),
-    StripItem::new(136.0, 1, adds_row).only(|state| state.tools.domain.mode != DomainToolMode::Frame),
+    StripItem::new(136.0, 1, adds_row)
+        .only(|state| state.tools.settings::<DomainTool>().mode != DomainToolMode::Frame),
     StripItem::new(136.0, 2, radius_row)
         .stretching()
-        .only(|state| state.tools.domain.mode == DomainToolMode::Brush),
+        .only(|state| state.tools.settings::<DomainTool>().mode == DomainToolMode::Brush),
 ];
 
 fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut mode = state.tools.domain.mode;
+    let mut mode = state.tools.settings::<DomainTool>().mode;
     let choices = [
         (DomainToolMode::Brush, "Brush"),
         (DomainToolMode::Rectangle, "Rectangle"),
@@ -25,13 +27,13 @@ fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         (DomainToolMode::Frame, "Frame"),
     ];
     if segmented(ui, "What cuts the domain", &mut mode, &choices).changed() {
-        commands.push(Command::Domain(DomainCommand::Mode(mode)));
+        commands.push(Command::from(DomainCommand::Mode(mode)));
     }
 }
 
 fn adds_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut adds = state.tools.domain.adds;
+    let mut adds = state.tools.settings::<DomainTool>().adds;
     if segmented(ui, "Add or remove", &mut adds, &[(false, "Remove"), (true, "Add")]).changed() {
-        commands.push(Command::Domain(DomainCommand::Adds(adds)));
+        commands.push(Command::from(DomainCommand::Adds(adds)));
     }
 }

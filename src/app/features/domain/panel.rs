@@ -5,15 +5,15 @@ use eframe::egui::{Id, Ui};
 use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
 use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
-use crate::app::widgets::{
-    ActionButton, NumberRow, Section, SliderRow, ValueRow, dropdown_row, format, segmented, toggle_row,
-    value_row,
-};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{
+    ActionButton, NumberRow, Section, SliderRow, ValueRow, dropdown_row, format, segmented, toggle_row,
+    value_row,
+};
 
 /// Share of the area from which parts stay, to start with.
 const USUAL_SHARE: f64 = 0.01;
@@ -90,7 +90,7 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands
     let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(usual);
     let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Boundary(
+        commands.push(Command::from(EditCommand::Set(Setting::Boundary(
             settings.boundary.with_diameter(diameter),
         ))));
     }
@@ -117,7 +117,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
         let response = row.help("Parts with at least this share of the area stay.").show(ui);
         if response.changed() {
             let parts = KeptParts::Share(share);
-            commands.push(Command::Edit(EditCommand::Set(Setting::Cleaning(Cleaning { parts, ..cleaning }))));
+            commands.push(Command::from(EditCommand::Set(Setting::Cleaning(Cleaning { parts, ..cleaning }))));
         }
         end_gesture_when_released(&response, commands);
     }
@@ -165,7 +165,7 @@ fn bounds_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     if changed {
         let [left, bottom, right, top] = sides;
         let bounds = Rect::new(glam::dvec2(left, bottom), glam::dvec2(right, top));
-        commands.push(Command::Domain(DomainCommand::Bounds(bounds)));
+        commands.push(Command::from(DomainCommand::Bounds(bounds)));
     }
 }
 
@@ -190,10 +190,10 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Open domain…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&OPEN_DOMAIN)));
+            commands.push(Command::from(FileCommand::Ask(&OPEN_DOMAIN)));
         }
         if ui.add(ActionButton::new("Add outline…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&ADD_OUTLINE)));
+            commands.push(Command::from(FileCommand::Ask(&ADD_OUTLINE)));
         }
     });
     let domain = &state.session.document().settings().domain;

@@ -9,12 +9,12 @@ use crate::app::kit::{
     CLICK_SLACK, DrawingCommands, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks,
     press_brush, press_corner,
 };
-use crate::app::tools::Tools;
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
+use crate::app::tools::{ToolSettings, Tools, first_settings};
 use meshbrush_core::document::DrawnPart;
 use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_mesh::geometry::Rect as WorldRect;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {
@@ -22,17 +22,18 @@ pub static DOMAIN: ToolSpec = ToolSpec {
     tab: Some(Tab::Domain),
     options: &DOMAIN_OPTIONS,
     hint,
-    has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,
+    has_ring: |tools| tools.settings::<DomainTool>().mode == DomainToolMode::Brush,
     paint,
     press,
     press_secondary,
     menu,
+    settings: Some(first_settings::<DomainTool>),
     ..ToolSpec::new("Domain", Key::D, Icon::DOMAIN)
 };
 
 /// Returns what to do next with the shape that cuts.
 fn hint(state: &FrameState<'_>) -> &'static [Hint<'static>] {
-    match state.tools.domain.mode {
+    match state.tools.settings::<DomainTool>().mode {
         DomainToolMode::Brush | DomainToolMode::Rectangle => HINT,
         DomainToolMode::Polygon => POLYGON_HINT,
         DomainToolMode::Frame => FRAME_HINT,
@@ -85,9 +86,15 @@ pub struct DomainTool {
     pub corners: Vec<DVec2>,
 }
 
+impl ToolSettings for DomainTool {
+    fn differs_in_choice(&self, other: &Self) -> bool {
+        (self.mode, self.adds) != (other.mode, other.adds)
+    }
+}
+
 /// Alt swaps adding and removing.
 fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
-    let tool = &pointer.tools.domain;
+    let tool = pointer.tools.settings::<DomainTool>();
     let adds = tool.adds != press.modifiers.alt;
     let (from, to) = (press.at, press.at);
     Some(match tool.mode {
@@ -100,27 +107,27 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
 
 /// The commands of the strokes and the polygon that cut the domain.
 static COMMANDS: DrawingCommands = DrawingCommands {
-    draw: |cut_shape, adds| Command::Domain(DomainCommand::Reshape(cut_shape, adds)),
-    drawn: |command| match command {
-        Command::Domain(DomainCommand::Reshape(cut_shape, _)) => Some(cut_shape),
+    draw: |cut_shape, adds| Command::from(DomainCommand::Reshape(cut_shape, adds)),
+    drawn: |command| match command.get_mut() {
+        Some(DomainCommand::Reshape(cut_shape, _)) => Some(cut_shape),
         _ => None,
     },
-    add_corner: |corner| Command::Domain(DomainCommand::AddCorner(corner)),
-    move_corner: |index, corner| Command::Domain(DomainCommand::MoveCorner(index, corner)),
-    close: || Command::Domain(DomainCommand::ClosePolygon),
+    add_corner: |corner| Command::from(DomainCommand::AddCorner(corner)),
+    move_corner: |index, corner| Command::from(DomainCommand::MoveCorner(index, corner)),
+    close: || Command::from(DomainCommand::ClosePolygon),
 };
 
 /// The secondary button closes the polygon.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    COMMANDS.close_if_begun(&tools.domain.corners, commands)
+    COMMANDS.close_if_begun(&tools.settings::<DomainTool>().corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
-    let tool = &state.tools.domain;
+    let tool = state.tools.settings::<DomainTool>();
     let swap = if tool.adds { "Remove from the domain" } else { "Add to the domain" };
-    let mut entries = vec![(swap, Command::Domain(DomainCommand::Adds(!tool.adds)))];
+    let mut entries = vec![(swap, Command::from(DomainCommand::Adds(!tool.adds)))];
     if tool.mode == DomainToolMode::Polygon {
-        entries.push(("Begin a polygon here", Command::Domain(DomainCommand::AddCorner(point))));
+        entries.push(("Begin a polygon here", Command::from(DomainCommand::AddCorner(point))));
     }
     entries
 }
@@ -147,12 +154,12 @@ impl Gesture for Framing {
         }
         let rect = WorldRect::spanning(pointer.rounded_world(self.from), pointer.rounded_world(at));
         let Some(adds) = self.adds else {
-            return commands.push(Command::Domain(DomainCommand::Bounds(rect)));
+            return commands.push(Command::from(DomainCommand::Bounds(rect)));
         };
         let ring = CutShape::Ring(corners(&rect));
         commands.extend([
-            Command::Domain(DomainCommand::Reshape(ring, adds)),
-            Command::Edit(EditCommand::EndGesture),
+            Command::from(DomainCommand::Reshape(ring, adds)),
+            Command::from(EditCommand::EndGesture),
         ]);
     }
 
@@ -176,6 +183,7 @@ fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     for cut_shape in state.session.pending_cuts(|part| part == DrawnPart::Domain) {
         marks::paint_cut_shape(over.painter, cut_shape, at);
     }
-    let corners: Vec<Pos2> = state.tools.domain.corners.iter().map(|&corner| at(corner)).collect();
+    let corners: Vec<Pos2> =
+        state.tools.settings::<DomainTool>().corners.iter().map(|&corner| at(corner)).collect();
     marks::paint_open_polygon(over.painter, &corners, over.pointer);
 }

@@ -4,11 +4,12 @@
 use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, vec2};
 use glam::DVec2;
 
+use crate::app::features::inspection::Inspector;
 use crate::app::kit::{FrameState, OverMesh, marks};
-use crate::app::theme::tokens;
 use meshbrush_core::explain::{Demand, NodeFacts};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle};
+use meshbrush_ui::theme::tokens;
 
 /// Width of the outline of a triangle of the chain, in points.
 const LINK_WIDTH: f32 = 1.0;
@@ -30,21 +31,24 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     }
     let accent = tokens(over.ui).accent;
     let marks = CauseMarks { over, mesh: state.session.mesh(), accent };
-    for ancestor in state.features.inspection.explore.path_down(marks.mesh) {
+    for ancestor in state.feature::<Inspector>().explore.path_down(marks.mesh) {
         marks.ancestor(&ancestor);
     }
-    marks.chain(state.features.inspection.explore.chain());
+    marks.chain(state.feature::<Inspector>().explore.chain());
     if let Some(Demand::Target(least)) =
-        state.features.inspection.explore.explanation().and_then(|one| one.demand)
+        state.feature::<Inspector>().explore.explanation().and_then(|one| one.demand)
     {
         marks.decision(least.at, least.from);
     }
-    if let Some(shown) =
-        state.features.inspection.explore.shown().filter(|_| state.features.inspection.explore.is_away())
+    if let Some(shown) = state
+        .feature::<Inspector>()
+        .explore
+        .shown()
+        .filter(|_| state.feature::<Inspector>().explore.is_away())
     {
         marks.outline(shown, accent, SHOWN_WIDTH);
     }
-    if let Some(node) = state.features.inspection.explore.node(marks.mesh) {
+    if let Some(node) = state.feature::<Inspector>().explore.node(marks.mesh) {
         marks.node(&node);
     }
 }

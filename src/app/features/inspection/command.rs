@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::TreeStep;
+use crate::app::command::CommandSet;
 use crate::app::readout::Quantity;
 use meshbrush_mesh::mesh::TriangleId;
 
@@ -30,6 +31,8 @@ pub enum InspectCommand {
     /// Chooses what the inspector interpolates.
     Interpolate(Quantity),
 }
+
+impl CommandSet for InspectCommand {}
 
 /// A step in the bisection tree around the queried triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,7 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{ExploreCommand, InspectCommand, TreeStep};
 use crate::app::command::Command;
+use crate::app::features::inspection::Inspector;
 use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu, QUERYING};
 
 /// To neighbours, and through the bisection tree. The menu has what the selected tool does.
@@ -20,9 +21,8 @@ fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
     let has_keys = state.tools.tool.queries;
     let is_queried = state.session.queried_triangle().is_some();
     titles.into_iter().enumerate().map(move |(place, title)| {
-        let item =
-            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::QueryNeighbour(place)))
-                .enabled(is_queried);
+        let item = CatalogItem::new(Menu::Tool, title, Command::from(InspectCommand::QueryNeighbour(place)))
+            .enabled(is_queried);
         let item = item.key(DIGITS[place]).only(QUERYING, has_keys);
         if place == 0 { item.group() } else { item }
     })
@@ -35,9 +35,8 @@ fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     let is_queried = state.session.queried_triangle().is_some();
     names.into_iter().enumerate().map(move |(place, name)| {
         let title = format!("Follow the {name} neighbour and keep the trail");
-        let item =
-            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::FollowNeighbour(place)))
-                .enabled(is_queried);
+        let item = CatalogItem::new(Menu::Tool, title, Command::from(InspectCommand::FollowNeighbour(place)))
+            .enabled(is_queried);
         item.keys(Modifiers::SHIFT, DIGITS[place]).only(QUERYING, has_keys)
     })
 }
@@ -58,10 +57,11 @@ fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
         ("Go back along the chain", TreeStep::NextLink, Modifiers::NONE, Key::Period),
     ];
     let has_keys = state.tools.tool.queries;
-    let leads = steps
-        .map(|(_, step, ..)| state.features.inspection.explore.target(step, state.session.mesh()).is_some());
+    let leads = steps.map(|(_, step, ..)| {
+        state.feature::<Inspector>().explore.target(step, state.session.mesh()).is_some()
+    });
     steps.into_iter().zip(leads).enumerate().map(move |(place, ((title, step, modifiers, key), leads))| {
-        let command = Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step)));
+        let command = Command::from(InspectCommand::Explore(ExploreCommand::Step(step)));
         let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
         // The others have buttons in the tab Inspect.
         let item = item.in_menu(has_keys && place < STEPS_IN_MENU);

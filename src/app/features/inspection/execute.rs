@@ -41,7 +41,7 @@ impl Feature for Inspector {
             InspectCommand::CopyReadout => copy_readout(ctx),
             InspectCommand::GoTo(point) => {
                 ctx.session.query(Some(point));
-                ctx.send(Command::View(ViewCommand::LookAt(point)));
+                ctx.send(Command::from(ViewCommand::LookAt(point)));
             }
             InspectCommand::GoToTriangle(id) => {
                 let middle = middle_of(id, ctx);

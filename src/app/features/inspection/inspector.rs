@@ -3,12 +3,13 @@
 use eframe::egui::Ui;
 
 use super::text::{Inspection, LayerAnswer, NEIGHBOURS, Row};
-use crate::app::command::{Command, InspectCommand, ShellCommand, ViewCommand};
+use crate::app::command::{Command, ShellCommand, ViewCommand};
+use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
-use crate::app::theme::tokens;
-use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
 use meshbrush_mesh::mesh::{Location, TriangleId};
+use meshbrush_ui::theme::tokens;
+use meshbrush_ui::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
 
 /// The queried triangle, its neighbours, and a quantity in it.
 pub static INSPECTOR: Panel = Panel { name: "inspector", tab: Tab::Inspect, place: 0, show };
@@ -37,7 +38,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     });
     let hovered = section.flatten();
     if hovered != state.view.hovered_neighbour {
-        commands.push(Command::View(ViewCommand::HighlightNeighbour(hovered)));
+        commands.push(Command::from(ViewCommand::HighlightNeighbour(hovered)));
     }
 }
 
@@ -71,7 +72,7 @@ fn triangle_rows(
     let mut quantity = state.view.quantity;
     let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
     if segmented(ui, "Quantity", &mut quantity, &choices).changed() {
-        commands.push(Command::Inspect(InspectCommand::Interpolate(quantity)));
+        commands.push(Command::from(InspectCommand::Interpolate(quantity)));
     }
     copied_rows(ui, &inspection.quantity_rows(), commands);
     hovered
@@ -84,7 +85,7 @@ fn layer_rows(ui: &mut Ui, inspection: &Inspection<'_>, commands: &mut Vec<Comma
         ui.push_id(number, |ui| {
             let value = ValueRow::new(&row.label, &row.shown).stands_out(*decides).copies(&row.exact);
             if value.help(LAYER_HELP).show(ui).clicked() {
-                commands.push(Command::Shell(ShellCommand::Copy(row.exact.clone())));
+                commands.push(Command::from(ShellCommand::Copy(row.exact.clone())));
             }
         });
     }
@@ -97,7 +98,7 @@ fn copied_rows(ui: &mut Ui, rows: &[Row], commands: &mut Vec<Command>) {
     for row in rows {
         let help = if row.label.starts_with('v') { VERTEX_HELP } else { "" };
         if ValueRow::new(&row.label, &row.shown).help(help).copies(&row.exact).show(ui).clicked() {
-            commands.push(Command::Shell(ShellCommand::Copy(row.exact.clone())));
+            commands.push(Command::from(ShellCommand::Copy(row.exact.clone())));
         }
     }
 }
@@ -121,8 +122,8 @@ fn neighbour_chips(
             let response = chip.enabled(id.is_some()).show(ui);
             if response.clicked() {
                 let follows = ui.input(|input| input.modifiers.shift);
-                let follow = Some(Command::Inspect(InspectCommand::FollowNeighbour(i))).filter(|_| follows);
-                commands.extend(follow.or(id.map(|id| Command::Inspect(InspectCommand::QueryTriangle(id)))));
+                let follow = Some(Command::from(InspectCommand::FollowNeighbour(i))).filter(|_| follows);
+                commands.extend(follow.or(id.map(|id| Command::from(InspectCommand::QueryTriangle(id)))));
             }
             hovered = id.filter(|_| response.hovered()).or(hovered);
         }

@@ -4,9 +4,11 @@
 use eframe::egui::Ui;
 
 use super::TreeStep;
-use crate::app::command::{Command, ExploreCommand, InspectCommand, PinsCommand};
+use crate::app::command::Command;
+use crate::app::features::inspection::{ExploreCommand, InspectCommand, Inspector};
+use crate::app::features::pins::PinsCommand;
 use crate::app::kit::{FrameState, StripItem};
-use crate::app::widgets::ActionButton;
+use meshbrush_ui::widgets::ActionButton;
 
 /// Pins and copies the queried point, and steps in the bisection tree.
 pub static QUERY_OPTIONS: [StripItem; 8] = [
@@ -30,16 +32,16 @@ pub static QUERY_OPTIONS: [StripItem; 8] = [
 
 /// A button that goes to another triangle of the bisection tree.
 fn step(ui: &mut Ui, state: &FrameState<'_>, name: &str, to: TreeStep, commands: &mut Vec<Command>) {
-    let leads = state.features.inspection.explore.target(to, state.session.mesh()).is_some();
+    let leads = state.feature::<Inspector>().explore.target(to, state.session.mesh()).is_some();
     if ui.add_enabled_ui(leads, |ui| ui.add(ActionButton::new(name))).inner.clicked() {
-        commands.push(Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(to))));
+        commands.push(Command::from(InspectCommand::Explore(ExploreCommand::Step(to))));
     }
 }
 
 fn pin_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let button = ActionButton::new("Pin");
     if ui.add_enabled_ui(state.readout.is_some(), |ui| ui.add(button)).inner.clicked() {
-        commands.push(Command::Pins(PinsCommand::Pin));
+        commands.push(Command::from(PinsCommand::Pin));
     }
 }
 
@@ -47,6 +49,6 @@ fn copy_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let has_triangle = state.readout.is_some_and(|readout| readout.triangle.is_some());
     let button = ActionButton::new("Copy values");
     if ui.add_enabled_ui(has_triangle, |ui| ui.add(button)).inner.clicked() {
-        commands.push(Command::Inspect(InspectCommand::CopyReadout));
+        commands.push(Command::from(InspectCommand::CopyReadout));
     }
 }

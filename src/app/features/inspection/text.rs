@@ -3,10 +3,10 @@
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
 use crate::app::view::View;
-use crate::app::widgets::format;
 use meshbrush_core::layers::{Decision, DiameterLimit, Layer, LayerId};
 use meshbrush_mesh::mesh::{Location, NodeId, Orientation};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::format;
 
 /// The names of the three neighbours, in their order.
 pub const NEIGHBOURS: [&str; 3] = ["Bisection neighbour", "Second neighbour", "Third neighbour"];

@@ -3,10 +3,12 @@
 use eframe::egui::Key;
 
 use super::QUERY_OPTIONS;
-use crate::app::command::{Command, InspectCommand, PinsCommand};
+use crate::app::command::Command;
+use crate::app::features::inspection::InspectCommand;
+use crate::app::features::pins::PinsCommand;
 use crate::app::kit::{SettingsDrag, Tab, ToolSpec};
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values. Moves pins, which have their own commands.
 pub static QUERY: ToolSpec = ToolSpec {
@@ -18,13 +20,13 @@ pub static QUERY: ToolSpec = ToolSpec {
     in_space: true,
     menu: |state, _| {
         let triangle = state.readout.and_then(|readout| readout.triangle.as_ref());
-        let copy = Command::Inspect(InspectCommand::CopyReadout);
+        let copy = Command::from(InspectCommand::CopyReadout);
         triangle.map(|_| ("Copy the values of the triangle", copy)).into_iter().collect()
     },
     press: |press, pointer, commands| {
         let at = pointer.world(press.at);
-        commands.push(Command::Pins(PinsCommand::Press { at, reach: pointer.grip_reach() }));
-        Some(Box::new(SettingsDrag::new(press.at, |at| Command::Pins(PinsCommand::DragTo(at)))))
+        commands.push(Command::from(PinsCommand::Press { at, reach: pointer.grip_reach() }));
+        Some(Box::new(SettingsDrag::new(press.at, |at| Command::from(PinsCommand::DragTo(at)))))
     },
     ..ToolSpec::new("Query", Key::Q, Icon::QUERY)
 };

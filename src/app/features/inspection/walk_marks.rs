@@ -3,9 +3,10 @@
 use eframe::egui::{Color32, Pos2, Rect, Stroke, vec2};
 use glam::DVec2;
 
-use crate::app::kit::marks::{NUMBER_DISC, paint_line, paint_number};
+use crate::app::kit::marks::{paint_line, paint_number};
 use crate::app::kit::{FrameState, OverMesh};
-use crate::app::theme::font;
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::font;
 
 /// The colour of the walk.
 const WALK: Color32 = Color32::from_rgb(0x7c, 0xd8, 0xff);

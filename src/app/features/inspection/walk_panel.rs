@@ -2,10 +2,11 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, InspectCommand, ViewCommand};
+use crate::app::command::{Command, ViewCommand};
+use crate::app::features::inspection::{InspectCommand, Inspector};
 use crate::app::kit::{FrameState, Panel, Tab, remark};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{Section, format, toggle_row, value_row};
+use meshbrush_ui::widgets::{Section, format, toggle_row, value_row};
 
 /// The walk to the queried point, and how long walks are in this mesh.
 pub static WALK: Panel = Panel { name: "walk", tab: Tab::Method, place: 1, show };
@@ -25,19 +26,19 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// How many steps point location took, beside their mean and their bound.
 fn walk_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(readout) = state.readout else { return };
-    if state.features.inspection.walks.is_due(state.session) {
+    if state.feature::<Inspector>().walks.is_due(state.session) {
         // It is measured only while it is shown.
-        commands.push(Command::Inspect(InspectCommand::MeasureWalks));
+        commands.push(Command::from(InspectCommand::MeasureWalks));
     }
     let mesh = state.session.mesh();
     let steps = mesh.walk_path(readout.point).len().saturating_sub(1);
     let steps = if steps == 1 { "1 step".into() } else { format!("{} steps", format::count(steps as u64)) };
     let mean =
-        state.features.inspection.walks.mean_steps().map_or("…".into(), |mean| format::fixed(mean, 1));
+        state.feature::<Inspector>().walks.mean_steps().map_or("…".into(), |mean| format::fixed(mean, 1));
     let bound = format::count(mesh.walk_bound() as u64);
     value_row(ui, "Walk", &format!("{steps} (mean {mean}, bound {bound})"));
     let mut shown = state.view.aids.walk;
     if toggle_row(ui, "Show the walk", &mut shown).changed() {
-        commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::Walk)));
+        commands.push(Command::from(ViewCommand::ToggleAid(CanvasAid::Walk)));
     }
 }

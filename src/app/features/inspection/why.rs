@@ -4,22 +4,26 @@ use eframe::egui::{RichText, Ui};
 use glam::DVec2;
 
 use super::TreeStep;
-use crate::app::command::{Command, ExploreCommand, InspectCommand, ViewCommand};
+use crate::app::command::{Command, ViewCommand};
+use crate::app::features::inspection::{ExploreCommand, InspectCommand, Inspector};
 use crate::app::kit::{FrameState, Panel, Tab, remark};
-use crate::app::theme::{font, tokens};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row};
 use meshbrush_core::explain::{Explanation, NodeFacts, Words};
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle, bisection_edge_length};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{
+    Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row,
+};
 
 /// The cause of the queried triangle, and its place in the tree.
 pub static WHY: Panel = Panel { name: "why", tab: Tab::Inspect, place: 3, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Why this triangle").show(ui, |ui| {
-        let (Some(explanation), Some(shown)) =
-            (state.features.inspection.explore.explanation(), state.features.inspection.explore.shown())
-        else {
+        let (Some(explanation), Some(shown)) = (
+            state.feature::<Inspector>().explore.explanation(),
+            state.feature::<Inspector>().explore.shown(),
+        ) else {
             let text = if state.readout.is_some() {
                 "The explanation appears when the mesh is complete."
             } else {
@@ -31,7 +35,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         chain_chips(ui, state, commands);
         let mut drawn = state.view.aids.cause;
         if toggle_row(ui, "Show on the canvas", &mut drawn).changed() {
-            commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::Cause)));
+            commands.push(Command::from(ViewCommand::ToggleAid(CanvasAid::Cause)));
         }
         ui.add_space(6.0);
         path_chips(ui, state, commands);
@@ -56,14 +60,14 @@ fn sentences(ui: &mut Ui, state: &FrameState<'_>, explanation: &Explanation) {
 
 /// The triangles from the one that exceeds its target to the parent. A click goes to one.
 fn chain_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let chain = state.features.inspection.explore.chain();
+    let chain = state.feature::<Inspector>().explore.chain();
     if chain.is_empty() {
         return;
     }
     remark(ui, "From the triangle that required it to its parent, by level:");
     let accent = tokens(ui).accent;
     let faint = tokens(ui).faint;
-    let here = state.features.inspection.explore.link();
+    let here = state.feature::<Inspector>().explore.link();
     chips(ui, |ui| {
         for (place, link) in chain.iter().enumerate() {
             let text = link.level().to_string();
@@ -80,8 +84,10 @@ fn chain_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
 
 /// The way from the coarse triangle down to the queried one. A click goes to a triangle on it.
 fn path_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let path = state.features.inspection.explore.path_down(state.session.mesh());
-    let (Some(shown), false) = (state.features.inspection.explore.shown(), path.is_empty()) else { return };
+    let path = state.feature::<Inspector>().explore.path_down(state.session.mesh());
+    let (Some(shown), false) = (state.feature::<Inspector>().explore.shown(), path.is_empty()) else {
+        return;
+    };
     remark(ui, "Down the bisection tree, by level:");
     let (accent, faint) = (tokens(ui).accent, tokens(ui).faint);
     chips(ui, |ui| {
@@ -99,7 +105,7 @@ fn path_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 }
 
 fn step(step: TreeStep, commands: &mut Vec<Command>) {
-    commands.push(Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step))));
+    commands.push(Command::from(InspectCommand::Explore(ExploreCommand::Step(step))));
 }
 
 /// Level, size and state of the shown triangle.
@@ -107,7 +113,7 @@ fn triangle_rows(ui: &mut Ui, state: &FrameState<'_>, shown: &TreeTriangle) {
     let mesh = state.session.mesh();
     let diameter = bisection_edge_length(mesh.lattice().spacing(), shown.level());
     let title =
-        if state.features.inspection.explore.is_away() { "Shown triangle" } else { "Queried triangle" };
+        if state.feature::<Inspector>().explore.is_away() { "Shown triangle" } else { "Queried triangle" };
     let level = format!("level {}", shown.level());
     ValueRow::new(title, &level).help("The triangle of the bisection tree that is shown.").show(ui);
     let help = "The length of its bisection edge, in the unit of the document.";
@@ -123,14 +129,14 @@ fn triangle_rows(ui: &mut Ui, state: &FrameState<'_>, shown: &TreeTriangle) {
 /// The node at a corner of the shown triangle.
 fn node_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
-    let before = state.features.inspection.explore.corner();
+    let before = state.feature::<Inspector>().explore.corner();
     let mut corner = before;
     let choices = [(None, "No node"), (Some(0), "Apex"), (Some(1), "End 1"), (Some(2), "End 2")];
     if segmented(ui, "Node of the triangle", &mut corner, &choices).changed() {
-        commands.push(Command::Inspect(InspectCommand::Explore(ExploreCommand::ShowCorner(corner))));
+        commands.push(Command::from(InspectCommand::Explore(ExploreCommand::ShowCorner(corner))));
     }
     let mesh = state.session.mesh();
-    let Some(node) = state.features.inspection.explore.node(mesh) else { return };
+    let Some(node) = state.feature::<Inspector>().explore.node(mesh) else { return };
     ui.add_space(4.0);
     for (label, value, help) in node_values(state, mesh, &node) {
         ValueRow::new(label, &value).help(help).show(ui);

@@ -2,10 +2,9 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::LayerCommand;
 use super::selected::combine_name;
-use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING, kinds_of_layers};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
 
 /// Returns the stack of layers, and the selected one.
@@ -19,7 +18,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
 }
 
 fn item(title: impl Into<String>, command: LayerCommand) -> CatalogItem {
-    CatalogItem::new(Menu::Layer, title, Command::Layer(command))
+    CatalogItem::new(Menu::Layer, title, Command::from(command))
 }
 
 /// Kinds of layers that the menu adds.
@@ -27,7 +26,7 @@ const MOST_ADDITIONS: usize = 9;
 
 /// Returns the commands that add a layer, for each kind.
 fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let additions = kinds_of_layers(state.rows).into_iter().flat_map(|kind| kind.additions);
+    let additions = state.layer_kinds.iter().flat_map(|kind| kind.additions);
     let items = additions.enumerate().map(|(i, addition)| {
         let title = format!("Add layer: {}", addition.title);
         // The button below the list of layers has all.

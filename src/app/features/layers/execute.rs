@@ -2,11 +2,10 @@
 
 use super::kinds::kind_of;
 use super::{
-    GRADATION, KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries,
-    list, load, marks,
+    GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load, marks,
 };
-use crate::app::command::{Command, FileCommand};
-use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
@@ -83,8 +82,8 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     let layer = document.settings().layer(id);
     let Some(kind) = layer.map(|layer| &layer.kind) else { return };
     let chosen = ctx.tools.chosen();
-    let edits_a_kind = kinds_of_layers(ctx.rows).iter().any(|kind| kind.tool == Some(chosen));
-    match kind_of(ctx.rows, kind).tool {
+    let edits_a_kind = ctx.layer_kinds.iter().any(|kind| kind.tool == Some(chosen));
+    match kind_of(ctx.layer_kinds, kind).tool {
         Some(tool) if chosen.brush.is_some() => ctx.tools.select(tool),
         None if edits_a_kind && matches!(kind, LayerKind::Paint(_)) => ctx.tools.select_brush(),
         _ => {}
@@ -93,7 +92,7 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
 
 /// Adds a layer above the selected one, and selects it.
 fn add_layer(kind: LayerKind, ctx: &mut Ctx<'_>) {
-    if let Some(tool) = kind_of(ctx.rows, &kind).tool {
+    if let Some(tool) = kind_of(ctx.layer_kinds, &kind).tool {
         ctx.tools.select(tool);
     }
     ctx.session.end_gesture();
@@ -109,7 +108,7 @@ fn add_band(ctx: &mut Ctx<'_>) {
     let Settings { layers, transfer, .. } = document.settings();
     let all = document.active_layer().into_iter().chain(layers.iter().rev());
     let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
-        return ctx.send(Command::File(FileCommand::Ask(&OPEN_BAND)));
+        return ctx.send(Command::from(FileCommand::Ask(&OPEN_BAND)));
     };
     match LayerKind::band_of(source.clone(), transfer) {
         Some(band) => add_layer(band, ctx),

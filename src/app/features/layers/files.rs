@@ -23,7 +23,7 @@ pub static OPEN_RISK: FileKind = FileKind {
     endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenImage(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenImage(path)))
 };
 
 /// A grid as target diameters.
@@ -32,7 +32,7 @@ pub static OPEN_DIAMETERS: FileKind = FileKind {
     endings: grid_endings,
     contents: "Grids",
     folder: "pictures",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenDiameters(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenDiameters(path)))
 };
 
 /// A grid of heights or depths of water.
@@ -41,7 +41,7 @@ pub static OPEN_DEPTH: FileKind = FileKind {
     endings: grid_endings,
     contents: "Grids",
     folder: "pictures",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenDepth(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenDepth(path)))
 };
 
 /// A picture or a grid, for a band of its values.
@@ -50,7 +50,7 @@ pub static OPEN_BAND: FileKind = FileKind {
     endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenBand(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenBand(path)))
 };
 
 /// A picture or a grid as a surface that the mesh is to be close to.
@@ -59,7 +59,7 @@ pub static OPEN_SURFACE: FileKind = FileKind {
     endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenSurface(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenSurface(path)))
 };
 
 /// A picture or a grid through a curve of its values.
@@ -68,7 +68,7 @@ pub static OPEN_VALUES: FileKind = FileKind {
     endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenValues(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenValues(path)))
 };
 
 /// Points, lines and polygons as a layer of distances.
@@ -77,7 +77,7 @@ pub static OPEN_SHAPES: FileKind = FileKind {
     endings: shape_and_table_endings,
     contents: "Points, lines and polygons",
     folder: "shapes",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenShapes(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenShapes(path)))
 };
 
 /// Points, lines and polygons in place of those of a layer.
@@ -86,7 +86,7 @@ pub static REPLACE_SHAPES: FileKind = FileKind {
     endings: shape_and_table_endings,
     contents: "Points, lines and polygons",
     folder: "shapes",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::ReplaceShapes(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::ReplaceShapes(path)))
 };
 
 /// Polygons as the mask of a layer.
@@ -95,7 +95,7 @@ pub static OPEN_MASK: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenMask(path)))
+    ..FileKind::new(|path| Command::from(LayerCommand::OpenMask(path)))
 };
 
 /// The uses of a file that layers have.

@@ -2,11 +2,10 @@
 
 use eframe::egui::Ui;
 
-use super::LayerCommand;
-use crate::app::command::{Command, EditCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
-use crate::app::widgets::{Section, SliderRow, toggle_row};
 use meshbrush_core::document::{Setting, Settings};
+use meshbrush_ui::widgets::{Section, SliderRow, toggle_row};
 
 /// Whether h̄ may change abruptly, or how fast it may change.
 pub static GRADATION: Panel = Panel { name: "gradation", tab: Tab::Size, place: 1, show };
@@ -20,7 +19,7 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut limits = gradation.is_some();
     let toggle = toggle_row(ui, "Limit gradation", &mut limits);
     if toggle.changed() {
-        commands.push(Command::Layer(LayerCommand::LimitGradation(limits)));
+        commands.push(Command::from(LayerCommand::LimitGradation(limits)));
     }
     if let Some(slope) = gradation {
         slope_row(ui, slope, commands);
@@ -42,7 +41,7 @@ fn slope_row(ui: &mut Ui, mut slope: f64, commands: &mut Vec<Command>) {
                 triangles grow with the distance from fine places.";
     let response = row.help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Gradation(Some(slope)))));
+        commands.push(Command::from(EditCommand::Set(Setting::Gradation(Some(slope)))));
     }
     end_gesture_when_released(&response, commands);
 }

@@ -2,15 +2,15 @@
 
 use eframe::egui::{Context, CursorIcon, Id, Rect, Response, ScrollArea, Ui, pos2};
 
-use super::LayerCommand;
 use super::kinds::kind_of;
 use super::pictures::layer_color32;
 use super::selected::combine_name;
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
+use crate::app::features::layers::LayerEditor;
 use crate::app::kit::FrameState;
-use crate::app::theme::tokens;
-use crate::app::widgets::{LayerRow, LayerRowAnswer};
 use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_ui::theme::tokens;
+use meshbrush_ui::widgets::{LayerRow, LayerRowAnswer};
 
 /// Rows that are in sight at least; more scroll.
 const LEAST_ROWS: f32 = 2.5;
@@ -65,11 +65,11 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
     let row = LayerRow {
         id: layer.id.0,
         name: &layer.name,
-        icon: kind_of(state.rows, &layer.kind).icon,
+        icon: kind_of(state.layer_kinds, &layer.kind).icon,
         kind: layer.kind.label(),
         combine: combine_name(layer.combine),
         color: layer_color32(layer.id),
-        picture: state.features.layers.pictures.texture(layer.id),
+        picture: state.feature::<LayerEditor>().pictures.texture(layer.id),
         visible: layer.visible,
         locked: layer.locked,
         selected: selected == Some(layer.id),
@@ -78,7 +78,7 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
     let (response, answer) = row.show(ui, new_name.as_mut().map(|new_name| &mut new_name.text));
     if let Some(new_name) = new_name {
         let name = new_name.keep(ui, answer).filter(|name| !name.is_empty() && *name != layer.name);
-        commands.extend(name.map(|name| Command::Layer(LayerCommand::Rename(layer.id, name))));
+        commands.extend(name.map(|name| Command::from(LayerCommand::Rename(layer.id, name))));
     }
     let command = match answer {
         LayerRowAnswer::Selected => LayerCommand::Select(layer.id),
@@ -87,7 +87,7 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
         LayerRowAnswer::Locked(locked) => LayerCommand::Lock(layer.id, locked),
         _ => return response,
     };
-    commands.push(Command::Layer(command));
+    commands.push(Command::from(command));
     response
 }
 
@@ -116,7 +116,7 @@ fn drag(ui: &mut Ui, layers: &[Layer], rows: &[Response], commands: &mut Vec<Com
     } else if !stays && ui.input(|input| input.pointer.any_released()) {
         let above = if gap < from { gap } else { gap - 1 };
         let place = layers.len() - 1 - above;
-        commands.push(Command::Layer(LayerCommand::Move(layers[layers.len() - 1 - from].id, place)));
+        commands.push(Command::from(LayerCommand::Move(layers[layers.len() - 1 - from].id, place)));
     }
 }
 

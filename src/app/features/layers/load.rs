@@ -141,7 +141,7 @@ fn layer_of(file: &Path, making: Making, target: &Target, meter: &Meter) -> Resu
     check_place(&bounds, &target.frame.domain, file)?;
     let mut commands = commands_to_add(kind);
     if !notes.is_empty() {
-        commands.push(Command::Shell(ShellCommand::Tell(notes.join(" "))));
+        commands.push(Command::from(ShellCommand::Tell(notes.join(" "))));
     }
     Ok(commands)
 }
@@ -173,7 +173,7 @@ fn lack_of_metres(
 }
 
 fn commands_to_add(kind: LayerKind) -> Vec<Command> {
-    vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::Edit(EditCommand::EndGesture)]
+    vec![Command::from(LayerCommand::Add(Box::new(kind))), Command::from(EditCommand::EndGesture)]
 }
 
 /// Reads points, lines and polygons, and adds a layer of the distance to them. An empty document takes their
@@ -206,7 +206,7 @@ pub fn replace_shapes(session: &Session, background: &mut Background, path: &Pat
     let (file, plane) = (path.to_owned(), session.document().settings().domain.projection);
     let plane = plane.map(DocumentPlane::from);
     background.start(Aim::Read, path, move |meter| match shapes_of(&file, plane.as_ref(), meter) {
-        Ok((to, ..)) => Outcome::PartRead(vec![Command::Layer(LayerCommand::MeasureTo(layer, to))]),
+        Ok((to, ..)) => Outcome::PartRead(vec![Command::from(LayerCommand::MeasureTo(layer, to))]),
         Err(problem) => Outcome::NotRead(problem),
     });
 }
@@ -214,7 +214,7 @@ pub fn replace_shapes(session: &Session, background: &mut Background, path: &Pat
 /// Reads polygons as the mask of the selected layer.
 pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
-    with_mask(session, background, path, move |mask| Command::Layer(LayerCommand::Mask(layer, Some(mask))));
+    with_mask(session, background, path, move |mask| Command::from(LayerCommand::Mask(layer, Some(mask))));
 }
 
 /// Returns the shapes of a file, or the points of a table, with their extent and the unit of coordinates;

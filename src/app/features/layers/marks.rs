@@ -4,8 +4,8 @@ use eframe::egui::{Color32, Pos2, Stroke};
 use glam::DVec2;
 
 use crate::app::kit::{FrameState, OverMesh, marks};
-use crate::app::theme::tokens;
 use meshbrush_core::layers::{LayerKind, ShapeList};
+use meshbrush_ui::theme::tokens;
 
 /// Width of the outline of a mask and of shapes, in points.
 const WIDTH: f32 = 1.5;

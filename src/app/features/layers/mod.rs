@@ -1,7 +1,6 @@
 //! The layers of the size field: the stack, the parameters of the selected layer, and the curve from risk to
 //! diameter.
 
-mod command;
 mod entries;
 mod execute;
 mod files;
@@ -19,7 +18,6 @@ mod surface_fit;
 pub mod tests;
 mod transfer;
 
-pub use command::LayerCommand;
 use files::{OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, OPEN_SURFACE, REPLACE_SHAPES, ROLES};
 pub use files::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use gradation::GRADATION;

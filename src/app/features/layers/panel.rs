@@ -2,11 +2,11 @@
 
 use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 
-use super::{LayerCommand, list, selected};
-use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, kinds_of_layers, menu_item};
-use crate::app::theme::metrics;
-use crate::app::widgets::{Icon, Section, ToolButton};
+use super::{list, selected};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, menu_item};
+use meshbrush_ui::theme::metrics;
+use meshbrush_ui::widgets::{Icon, Section, ToolButton};
 
 /// The stack, from the top, and the parameters of the selected layer.
 pub static LAYERS: Panel = Panel { name: "layers", tab: Tab::Layers, place: 0, show };
@@ -51,7 +51,7 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let mut button = |icon, name, command: Option<LayerCommand>| {
             let button = ToolButton::small(icon, name).entry(name);
             if ui.add_enabled_ui(command.is_some(), |ui| button.show(ui)).inner.clicked() {
-                commands.extend(command.map(Command::Layer));
+                commands.extend(command.map(Command::from));
             }
         };
         button(Icon::COPY, "Duplicate layer", id.map(LayerCommand::Duplicate));
@@ -68,7 +68,7 @@ fn add_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     let response = ToolButton::small(Icon::ADD, "Add layer").show(ui);
     Popup::menu(&response).show(|ui| {
         ui.set_min_width(220.0);
-        for (number, kind) in kinds_of_layers(state.rows).into_iter().enumerate() {
+        for (number, kind) in state.layer_kinds.iter().enumerate() {
             for (i, addition) in kind.additions.iter().enumerate() {
                 let item = CatalogItem::new(Menu::Layer, addition.title, (addition.command)(state));
                 let item = if i == 0 && number > 0 { item.group() } else { item };

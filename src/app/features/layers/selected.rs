@@ -2,12 +2,13 @@
 
 use eframe::egui::Ui;
 
+use super::OPEN_MASK;
 use super::kinds::kind_of;
-use super::{LayerCommand, OPEN_MASK};
-use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, remark};
-use crate::app::widgets::{ActionButton, Section, ValueRow, segmented};
 use meshbrush_core::layers::{Combine, Layer, LayerKind};
+use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, segmented};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";
@@ -35,7 +36,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
                 if !matches!(layer.kind, LayerKind::Surface(_)) && !layer.is_of_errors() {
                     combine_rows(ui, layer, commands);
                 }
-                (kind_of(state.rows, &layer.kind).parameters)(ui, state, layer, commands);
+                (kind_of(state.layer_kinds, &layer.kind).parameters)(ui, state, layer, commands);
                 mask_rows(ui, state, layer, commands);
             });
         });
@@ -46,7 +47,7 @@ fn combine_rows(ui: &mut Ui, layer: &Layer, commands: &mut Vec<Command>) {
     let mut combine = layer.combine;
     let choices = Combine::ALL.map(|combine| (combine, combine_name(combine)));
     if segmented(ui, COMBINE, &mut combine, &choices).changed() {
-        commands.push(Command::Layer(LayerCommand::Combine(layer.id, combine)));
+        commands.push(Command::from(LayerCommand::Combine(layer.id, combine)));
     }
     ui.add_space(4.0);
 }
@@ -59,14 +60,14 @@ fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut 
     ValueRow::new("Mask", &area).help(help).show(ui);
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Draw mask")).clicked() {
-            commands.push(Command::Region(RegionCommand::Target(RegionTarget::Mask)));
+            commands.push(Command::from(RegionCommand::Target(RegionTarget::Mask)));
         }
         if ui.add(ActionButton::new("Mask from file…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&OPEN_MASK)));
+            commands.push(Command::from(FileCommand::Ask(&OPEN_MASK)));
         }
         let remove = ActionButton::new("Remove mask");
         if ui.add_enabled_ui(layer.mask.is_some(), |ui| ui.add(remove)).inner.clicked() {
-            commands.push(Command::Layer(LayerCommand::Mask(layer.id, None)));
+            commands.push(Command::from(LayerCommand::Mask(layer.id, None)));
         }
     });
 }

@@ -7,9 +7,9 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use crate::app::readout::{Quantity, value_at};
-use crate::app::widgets::{CurveField, CurveValues, Section, SliderRow, TransferCurve};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
+use meshbrush_ui::widgets::{CurveField, CurveValues, Section, SliderRow, TransferCurve};
 
 /// The smallest diameter, and the curve from risk to diameter.
 pub static TRANSFER: Panel = Panel { name: "transfer", tab: Tab::Size, place: 0, show };
@@ -60,7 +60,7 @@ fn smallest_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let slider = slider.default(Settings::default().transfer.h_min * extent).help(SMALLEST_HELP);
     let response = slider.show(ui);
     if smallest != h_min {
-        commands.push(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(smallest))));
+        commands.push(Command::from(EditCommand::Set(Setting::SmallestDiameter(smallest))));
     }
     end_gesture_when_released(&response, commands);
 }
@@ -89,13 +89,13 @@ fn curve(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let editor = editor.unit(settings.unit).defaults(defaults);
     let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
     if shown.h_max != h_max {
-        commands.push(Command::Edit(EditCommand::Set(Setting::LargestDiameter(shown.h_max))));
+        commands.push(Command::from(EditCommand::Set(Setting::LargestDiameter(shown.h_max))));
     }
     if shown.h_risk != h_risk {
-        commands.push(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(shown.h_risk))));
+        commands.push(Command::from(EditCommand::Set(Setting::DiameterAtRiskOne(shown.h_risk))));
     }
     if shown.shape != shape {
-        commands.push(Command::Edit(EditCommand::Set(Setting::TransferShape(shown.shape))));
+        commands.push(Command::from(EditCommand::Set(Setting::TransferShape(shown.shape))));
     }
     end_gesture_when_released(&response, commands);
 }

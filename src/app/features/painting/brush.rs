@@ -3,14 +3,14 @@
 use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
-use super::{BRUSH_OPTIONS, BrushCommand};
-use crate::app::command::Command;
+use super::BRUSH_OPTIONS;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
-use crate::app::tools::{PaintKind, Tools};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
+use crate::app::tools::{BrushMode, PaintKind, Tools};
 use meshbrush_core::document::NoPaintLayer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
@@ -74,23 +74,6 @@ pub fn hint_without_layer(state: &FrameState<'_>) -> Option<&'static [Hint<'stat
     })
 }
 
-/// How a stroke of the brush changes the paint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BrushMode {
-    /// Raises the risk, with each stroke by the strength; makes the painted diameter smaller, never larger.
-    BuildUp,
-    /// Gives risk or diameter one value, from below and from above.
-    Set,
-    /// Lowers the risk, with each stroke by the strength; makes the painted diameter larger, never smaller.
-    Lower,
-}
-
-impl BrushMode {
-    /// All modes with their names, in the order of the panel.
-    pub const ALL: [(Self, &'static str); 3] =
-        [(Self::BuildUp, "Build up"), (Self::Set, "Set"), (Self::Lower, "Lower")];
-}
-
 fn brush(tools: &Tools) -> Brush {
     // A brush that sets a value has full strength: a lower strength would give another value.
     let (medium, strength) = match (tools.kind, tools.mode) {
@@ -121,7 +104,7 @@ pub fn line_to_here(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, 
     let line = state
         .tools
         .last_painted
-        .map(|_| ("Straight line to here", Command::Brush(BrushCommand::LineTo(point))));
+        .map(|_| ("Straight line to here", Command::from(BrushCommand::LineTo(point))));
     line.into_iter().collect()
 }
 
@@ -134,13 +117,13 @@ pub fn press_to_paint(
 ) -> Option<Box<dyn Gesture>> {
     let point = pointer.world(press.at);
     if picks(press.modifiers) {
-        commands.push(Command::Brush(BrushCommand::Pick(point)));
+        commands.push(Command::from(BrushCommand::Pick(point)));
         return None;
     }
     if press.modifiers.shift {
         return Some(Box::new(Sizing { from: press.at, radius: pointer.tools.radius, dragged: false }));
     }
-    commands.push(Command::Brush(BrushCommand::BeginStroke(point)));
+    commands.push(Command::from(BrushCommand::BeginStroke(point)));
     let slack = LONGEST_STRING * pointer.tools.smoothing as f32;
     Some(Box::new(Painting { brush: press.at, pointer: press.at, slack }))
 }
@@ -163,15 +146,15 @@ impl Gesture for Painting {
         let (pull, distance) = (at - self.brush, at.distance(self.brush));
         if distance > self.slack {
             self.brush = at - pull * (self.slack / distance);
-            commands.push(Command::Brush(BrushCommand::DrawTo(pointer.world(self.brush))));
+            commands.push(Command::from(BrushCommand::DrawTo(pointer.world(self.brush))));
         }
     }
 
     fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         if at != self.brush {
-            commands.push(Command::Brush(BrushCommand::DrawTo(pointer.world(at))));
+            commands.push(Command::from(BrushCommand::DrawTo(pointer.world(at))));
         }
-        commands.push(Command::Brush(BrushCommand::EndStroke));
+        commands.push(Command::from(BrushCommand::EndStroke));
     }
 
     fn ring_center(&self) -> Option<Pos2> {
@@ -185,7 +168,7 @@ impl Gesture for Painting {
     }
 
     fn interrupted(&self, commands: &mut Vec<Command>) {
-        commands.push(Command::Brush(BrushCommand::EndStroke));
+        commands.push(Command::from(BrushCommand::EndStroke));
     }
 }
 
@@ -206,13 +189,13 @@ impl Gesture for Sizing {
         if self.dragged {
             let px = f64::from(at.x - self.from.x) * pointer.px_per_point;
             commands
-                .push(Command::Brush(BrushCommand::Radius(self.radius + px / pointer.camera.px_per_world())));
+                .push(Command::from(BrushCommand::Radius(self.radius + px / pointer.camera.px_per_world())));
         }
     }
 
     fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         if !self.dragged {
-            commands.push(Command::Brush(BrushCommand::LineTo(pointer.world(at))));
+            commands.push(Command::from(BrushCommand::LineTo(pointer.world(at))));
         }
     }
 

@@ -2,10 +2,10 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{BrushCommand, BrushMode, ERASER, GESTURES};
-use crate::app::command::Command;
+use super::{ERASER, GESTURES};
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING};
-use crate::app::tools::{PaintKind, Tools};
+use crate::app::tools::{BrushMode, PaintKind, Tools};
 
 /// The brush, gestures that are hard to find, and what the digits set.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -19,18 +19,18 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
 fn brush(tools: &Tools) -> Vec<CatalogItem> {
     use Menu::Tool as InTool;
     let kind = |title: &str, kind| {
-        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Kind(kind))).checked(tools.kind == kind)
+        CatalogItem::new(InTool, title, Command::from(BrushCommand::Kind(kind))).checked(tools.kind == kind)
     };
     let mode = |mode, title: &str| {
-        let item = CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Mode(mode)));
+        let item = CatalogItem::new(InTool, title, Command::from(BrushCommand::Mode(mode)));
         item.checked(tools.mode == mode)
     };
     let mirror = |title: &str, command: fn(bool) -> BrushCommand, on: bool| {
-        CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on).palette_only()
+        CatalogItem::new(InTool, title, Command::from(command(!on))).checked(on).palette_only()
     };
     let harder = |title: &str, step: f64, key, bracket| {
         let hardness = (tools.hardness + step).clamp(0.0, 1.0);
-        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Hardness(hardness)))
+        CatalogItem::new(InTool, title, Command::from(BrushCommand::Hardness(hardness)))
             .keys(Modifiers::SHIFT, key)
             .keys(Modifiers::SHIFT, bracket)
             .palette_only()
@@ -45,11 +45,11 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
         mode(BrushMode::Lower, "Lower").key(Key::L),
         mirror("Mirror strokes left and right", BrushCommand::MirrorX, tools.mirrored[0]).group(),
         mirror("Mirror strokes above and below", BrushCommand::MirrorY, tools.mirrored[1]),
-        CatalogItem::new(InTool, "Larger brush", Command::Brush(BrushCommand::Scale(1.15)))
+        CatalogItem::new(InTool, "Larger brush", Command::from(BrushCommand::Scale(1.15)))
             .key(Key::I)
             .key(Key::CloseBracket)
             .group(),
-        CatalogItem::new(InTool, "Smaller brush", Command::Brush(BrushCommand::Scale(1.0 / 1.15)))
+        CatalogItem::new(InTool, "Smaller brush", Command::from(BrushCommand::Scale(1.0 / 1.15)))
             .key(Key::J)
             .key(Key::OpenBracket),
         harder("Harder brush", 0.1, Key::I, Key::CloseCurlyBracket),
@@ -71,7 +71,7 @@ fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
         } else {
             (format!("Strength {} %", 10 * (i + 1)), BrushCommand::Strength(share))
         };
-        let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).enabled(is_share);
+        let item = CatalogItem::new(Menu::Tool, title, Command::from(command)).enabled(is_share);
         let item = item.id(format!("amount-{}", i + 1)).key(key).only(NOT_QUERYING, has_keys);
         if i == 0 { item.group() } else { item }
     })

@@ -6,9 +6,9 @@ use super::ERASER_OPTIONS;
 use super::brush::{hint_without_layer, line_to_here, press_to_paint};
 use crate::app::kit::{Tab, ToolSpec};
 use crate::app::tools::Tools;
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::paint::{Brush, Medium};
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Removes paint.
 pub static ERASER: ToolSpec = ToolSpec {
@@ -18,6 +18,7 @@ pub static ERASER: ToolSpec = ToolSpec {
     hint: |state| hint_without_layer(state).unwrap_or(HINT),
     has_ring: |_| true,
     brush: Some(brush),
+    erases: true,
     in_space: true,
     press: press_to_paint,
     menu: line_to_here,

@@ -2,14 +2,12 @@
 
 use glam::DVec2;
 
-use super::{
-    BRUSH, BrushCommand, BrushMode, ERASER, GESTURES, LimitOffer, Painting, brush_diameters, entries,
-};
-use crate::app::command::{Command, LayerCommand};
+use super::{BRUSH, ERASER, GESTURES, LimitOffer, Painting, brush_diameters, entries};
+use crate::app::command::{BrushCommand, Command, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::notices::Offer;
 use crate::app::readout::{Quantity, value_at};
-use crate::app::tools::PaintKind;
+use crate::app::tools::{BrushMode, PaintKind};
 use meshbrush_core::document::{NoPaintLayer, Setting};
 use meshbrush_core::layers::{Layer, LayerKind};
 
@@ -201,6 +199,6 @@ fn offer_paint_layer(problem: &NoPaintLayer, ctx: &mut Ctx<'_>) {
             ("Add a paint layer", LayerCommand::Add(Box::new(LayerKind::Paint(quantity))))
         }
     };
-    let offer = Offer { label, command: Command::Layer(command) };
+    let offer = Offer { label, command: Command::from(command) };
     ctx.session.notices_mut().report_with_offer(problem, offer);
 }

@@ -1,23 +1,23 @@
 //! The offer to lower the smallest diameter, after a smaller one was painted.
 
 use crate::app::clock::{Duration, Instant};
+use crate::app::features::painting::Painting;
 
 use eframe::egui::{self, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, vec2};
 use glam::DVec2;
 
-use super::BrushCommand;
-use crate::app::command::Command;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{FrameState, NO_LIMIT, marks::point_from_px};
 use crate::app::session::Session;
 use crate::app::slices::SLICE;
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, format};
 use meshbrush_core::document::{Price, TransferPrice, TransferPricer};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, format};
 
 /// Width of the offer, in points.
 const WIDTH: f32 = 312.0;
@@ -104,7 +104,7 @@ pub fn show(
     camera: &Camera,
     commands: &mut Vec<Command>,
 ) -> Option<Rect> {
-    let offer = state.features.painting.offer.as_ref()?;
+    let offer = state.feature::<Painting>().offer.as_ref()?;
     let px_per_point = ui.pixels_per_point();
     let at = point_from_px(canvas, camera.screen_from_world(offer.at), px_per_point);
     let radius = (state.tools.radius * camera.px_per_world()) as f32 / px_per_point;
@@ -141,7 +141,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>, offer: &LimitOffer, commands: &
     let mut choice = |ui: &mut Ui, label, kind, price: Option<String>, command| {
         ui.add_space(6.0);
         if ui.add(ActionButton::new(label).kind(kind)).clicked() {
-            commands.push(Command::Brush(command));
+            commands.push(Command::from(command));
         }
         if let Some(price) = price {
             ui.label(RichText::new(price).font(font::caption()).color(t.label));

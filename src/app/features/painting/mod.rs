@@ -1,25 +1,21 @@
 //! Strokes and the brush.
 
 mod brush;
-mod command;
 mod entries;
 mod eraser;
 mod execute;
 mod gestures;
 mod limit_offer;
 mod options;
-mod pen;
 #[cfg(test)]
 mod tests;
 
-pub use brush::{BRUSH, BrushMode, picks};
-pub use command::BrushCommand;
+pub use brush::{BRUSH, picks};
 pub use eraser::ERASER;
 use gestures::GESTURES;
 use limit_offer::LimitOffer;
 pub use limit_offer::show as show_limit_offer;
 use options::{BRUSH_OPTIONS, ERASER_OPTIONS, brush_diameters};
-pub use pen::{Pen, PenEffect};
 
 use meshbrush_core::layers::LayerId;
 

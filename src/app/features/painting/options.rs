@@ -4,12 +4,12 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use super::{BrushCommand, BrushMode, ERASER, PenEffect};
-use crate::app::command::Command;
+use super::ERASER;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{FrameState, StripItem, radius_row};
-use crate::app::tools::{PaintKind, Tools};
-use crate::app::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
+use crate::app::tools::{BrushMode, FIRST_HARDNESS, PaintKind, PenEffect};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
+use meshbrush_ui::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
 
 /// What the brush paints and how, its size, and how strokes are drawn.
 pub static BRUSH_OPTIONS: [StripItem; 10] = [
@@ -36,7 +36,7 @@ pub static ERASER_OPTIONS: [StripItem; 6] = [
 ];
 
 fn send(command: BrushCommand, commands: &mut Vec<Command>) {
-    commands.push(Command::Brush(command));
+    commands.push(Command::from(command));
 }
 
 /// Returns whether errors can be painted: there is a surface.
@@ -79,18 +79,11 @@ fn amount_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 fn strength_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut strength = state.tools.strength();
     let slider = SliderRow::new("Strength", &mut strength, 0.01..=1.0).step(0.01);
-    let slider = slider.default(usual_strength(state));
+    let slider = slider.default(state.tools.first_strength());
     if slider.help("How far one stroke moves the value, 0 to 1. The digits 1 to 0 set it.").show(ui).changed()
     {
         send(BrushCommand::Strength(strength), commands);
     }
-}
-
-/// Returns the strength that the selected tool has at first.
-fn usual_strength(state: &FrameState<'_>) -> f64 {
-    let mut usual = Tools::for_domain(1.0, 0.0);
-    usual.select(state.tools.tool);
-    usual.strength()
 }
 
 fn risk_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -138,7 +131,7 @@ fn error_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut hardness = state.tools.hardness;
     let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
-    let slider = slider.default(Tools::for_domain(1.0, 0.0).hardness);
+    let slider = slider.default(FIRST_HARDNESS);
     let help =
         "Share of the radius with full strength, 0 to 1[; {softer-brush} and {harder-brush} change it].";
     if slider.help(help).show(ui).changed() {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::{AlternativesCommand, FrontCommand, KeepOutCommand};
+use crate::app::command::CommandSet;
 use meshbrush_core::document::PathCost;
 use meshbrush_core::layers::LayerId;
 
@@ -75,6 +76,8 @@ pub enum PathCommand {
     /// Writes the path that is shown.
     Export(PathBuf),
 }
+
+impl CommandSet for PathCommand {}
 
 /// How the cost of paths is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

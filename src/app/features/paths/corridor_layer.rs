@@ -3,9 +3,9 @@
 use super::{NO_PATH, Paths};
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::Ctx;
-use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
+use meshbrush_ui::widgets::shown_keys::with_keys;
 
 impl Paths {
     /// Adds a corridor along the paths as they are.
@@ -14,8 +14,8 @@ impl Paths {
         let settings = ctx.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         let kind = LayerKind::corridor(lines, extent, &settings.transfer, Settings::USUAL_GRADATION);
-        ctx.send(Command::Layer(LayerCommand::Add(Box::new(kind))));
-        ctx.send(Command::Edit(EditCommand::EndGesture));
+        ctx.send(Command::from(LayerCommand::Add(Box::new(kind))));
+        ctx.send(Command::from(EditCommand::EndGesture));
     }
 
     /// Moves a corridor to the paths as they are. Its numbers stay.
@@ -27,7 +27,7 @@ impl Paths {
         };
         let width = *width;
         if let Some(lines) = self.current_paths(ctx) {
-            ctx.send(Command::Layer(LayerCommand::MeasureTo(id, DistanceTo::Corridor { lines, width })));
+            ctx.send(Command::from(LayerCommand::MeasureTo(id, DistanceTo::Corridor { lines, width })));
         }
     }
 

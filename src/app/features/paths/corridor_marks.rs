@@ -2,6 +2,7 @@
 
 use eframe::egui::{Color32, Mesh, Pos2, Rect, Shape, pos2};
 
+use crate::app::features::paths::Paths;
 use crate::app::kit::marks::paint_line;
 use crate::app::kit::{FrameState, OverMesh};
 
@@ -15,11 +16,11 @@ const OUTDATED: f32 = 0.5;
 /// Draws the corridor.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let place = |line: &Vec<_>| line.iter().map(|&point| (over.screen_from_world)(point)).collect();
-    let lines: Vec<Vec<Pos2>> = state.features.paths.finder.corridor.lines().iter().map(place).collect();
+    let lines: Vec<Vec<Pos2>> = state.feature::<Paths>().finder.corridor.lines().iter().map(place).collect();
     if lines.is_empty() {
         return;
     }
-    let is_current = state.features.paths.finder.is_current(state.session);
+    let is_current = state.feature::<Paths>().finder.is_current(state.session);
     let [fill, line] =
         [FILL, LINE].map(|color| if is_current { color } else { color.gamma_multiply(OUTDATED) });
     let row = 1.0 / over.painter.pixels_per_point();

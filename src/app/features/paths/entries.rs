@@ -4,15 +4,16 @@ use eframe::egui::Key;
 
 use super::{AlternativesCommand, CostKind, FrontCommand, KeepOutCommand, OPEN_KEEP_OUT, PATH, PathCommand};
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::paths::Paths;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// Returns the entries. The key deletes a place of a path only while the tool is selected.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Path(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::from(command));
     let plan = &state.session.document().settings().paths;
     let has_paths = !plan.routes.is_empty();
-    let is_selected = state.features.paths.tool.selected_in(plan).is_some();
-    let paths = &state.features.paths.finder;
+    let is_selected = state.feature::<Paths>().tool.selected_in(plan).is_some();
+    let paths = &state.feature::<Paths>().finder;
     let alternatives = AlternativesCommand::Show(!paths.alternatives.is_on);
     let front = |title: &str, command| item(title, PathCommand::Front(command));
     let cost =
@@ -25,7 +26,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Delete all paths", PathCommand::DeleteAll).enabled(has_paths),
         cost("Weigh length and risk of paths", CostKind::Weights).group(),
         cost("Cost of paths by a formula", CostKind::Formula),
-        CatalogItem::new(Menu::Tool, "Add keep-out region…", Command::File(FileCommand::Ask(&OPEN_KEEP_OUT))),
+        CatalogItem::new(Menu::Tool, "Add keep-out region…", Command::from(FileCommand::Ask(&OPEN_KEEP_OUT))),
         item("Keep paths out of the layer's mask", PathCommand::KeepOut(KeepOutCommand::AddMask))
             .enabled(KeepOutCommand::mask_to_add(state.session).is_some()),
         item("Remove all keep-out regions", PathCommand::KeepOut(KeepOutCommand::RemoveAll))

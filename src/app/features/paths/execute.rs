@@ -15,12 +15,12 @@ use super::{
 use crate::app::command::Command;
 use crate::app::kit::{Ctx, Feature, Row, nearest_within};
 use crate::app::notices::Offer;
-use crate::app::widgets::format;
-use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Setting};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::path::Weights;
 use meshbrush_render::render::path_export::PathFormat;
+use meshbrush_ui::widgets::format;
+use meshbrush_ui::widgets::shown_keys::with_keys;
 
 impl Feature for Paths {
     type Command = PathCommand;
@@ -81,7 +81,7 @@ impl Feature for Paths {
             let (name, less) = (plan(ctx).name(number), format::percent_above(excess / (1.0 + excess)));
             let text =
                 format!("The proof of {name} found a path that costs {less} less, and shows that one.");
-            let command = Command::Path(PathCommand::KeepFormer(number));
+            let command = Command::from(PathCommand::KeepFormer(number));
             ctx.session.notices_mut().tell_with_offer(text, Offer { label: "Keep the former", command });
         }
         false
@@ -96,7 +96,7 @@ impl Paths {
     fn export_path_as(&mut self, path: PathBuf, ctx: &mut Ctx<'_>) {
         let usual = PathFormat::ENDINGS[0];
         let path = if path.extension().is_none() { path.with_extension(usual) } else { path };
-        let export = Command::Path(PathCommand::Export(path.clone()));
+        let export = Command::from(PathCommand::Export(path.clone()));
         ctx.commands.extend(ctx.project.ask_to_replace(vec![path], export));
     }
 

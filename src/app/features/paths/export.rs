@@ -7,12 +7,12 @@ use crate::app::background::{Aim, Background, Outcome, not_exported};
 use crate::app::derivation::Derived;
 use crate::app::session::Session;
 use crate::app::view::View;
-use crate::app::widgets::format;
 use meshbrush_core::earth::{EarthPlane, Speed};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::Solution;
 use meshbrush_io::io::{self, MeshSource, Provenance};
 use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
+use meshbrush_ui::widgets::format;
 
 /// Writes the path of the panel: as GeoJSON, as a table, as a route on the Earth, or as a picture over the
 /// mesh, as the ending says.

@@ -12,7 +12,7 @@ pub static OPEN_KEEP_OUT: FileKind = FileKind {
     endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
-    ..FileKind::new(|path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))))
+    ..FileKind::new(|path| Command::from(PathCommand::KeepOut(KeepOutCommand::Open(path))))
 };
 
 /// A path.
@@ -25,9 +25,9 @@ pub static EXPORT_PATH: FileKind = FileKind {
     suffix: " path",
     command_after_browsing: |path| {
         let is_complete = path.extension().is_some();
-        Command::Path(if is_complete { PathCommand::Export(path) } else { PathCommand::ExportAs(path) })
+        Command::from(if is_complete { PathCommand::Export(path) } else { PathCommand::ExportAs(path) })
     },
-    ..FileKind::new(|path| Command::Path(PathCommand::ExportAs(path)))
+    ..FileKind::new(|path| Command::from(PathCommand::ExportAs(path)))
 };
 
 /// The use of a file that paths have.

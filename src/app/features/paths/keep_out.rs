@@ -39,6 +39,6 @@ impl KeepOutCommand {
 pub fn load(session: &Session, background: &mut Background, path: &Path) {
     let name = name_of(path);
     with_mask(session, background, path, move |mask| {
-        Command::Path(PathCommand::KeepOut(KeepOutCommand::Add(KeepOut { name, mask })))
+        Command::from(PathCommand::KeepOut(KeepOutCommand::Add(KeepOut { name, mask })))
     });
 }

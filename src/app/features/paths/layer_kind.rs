@@ -5,8 +5,8 @@ use eframe::egui::Ui;
 use super::PathCommand;
 use crate::app::command::Command;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, button_rows, range_rows, remark, set_kind_once};
-use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_ui::widgets::{Icon, NumberRow};
 
 /// A strip along the paths as they were when they were taken.
 pub static CORRIDOR: LayerKindRow = LayerKindRow {
@@ -16,7 +16,7 @@ pub static CORRIDOR: LayerKindRow = LayerKindRow {
     tool: None,
     additions: &[Addition {
         title: "corridor along the paths",
-        command: |_| Command::Path(PathCommand::AddCorridor),
+        command: |_| Command::from(PathCommand::AddCorridor),
     }],
     parameters,
 };
@@ -40,6 +40,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         set_kind_once(layer, LayerKind::Distance { to, at_zero, slope, range }, commands);
     }
     remark(ui, "The corridor stays where the paths were when it was made.");
-    let take = Command::Path(PathCommand::MoveCorridor(layer.id));
+    let take = Command::from(PathCommand::MoveCorridor(layer.id));
     button_rows(ui, [[("Take the current path again", true, take)]], commands);
 }

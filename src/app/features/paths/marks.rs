@@ -6,10 +6,11 @@ use super::colors::{ALTERNATIVE_COLOR, POINTED_COLOR, path_color};
 use super::tool::{PathPlace, paint_place};
 use super::work::FoundPath;
 use super::{corridor_marks, keep_out_marks};
+use crate::app::features::paths::Paths;
 use crate::app::kit::marks::{paint_line, paint_line_preview, paint_rimmed_line};
 use crate::app::kit::{FrameState, OverMesh};
-use crate::app::theme::font;
 use meshbrush_core::path::Solution;
+use meshbrush_ui::theme::font;
 
 /// Width of the path that is shown in the panel, in points.
 const SELECTED_WIDTH: f32 = 4.0;
@@ -33,7 +34,7 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
 /// it is, the last one is grey, and the places are joined by dashed lines.
 fn paint_paths(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let plan = &state.session.document().settings().paths;
-    let selected = state.features.paths.tool.route_in(plan);
+    let selected = state.feature::<Paths>().tool.route_in(plan);
     paint_others(state, over);
     let others = (0..plan.routes.len()).filter(|&number| Some(number) != selected);
     others.chain(selected).for_each(|number| paint_path(state, over, number));
@@ -41,9 +42,9 @@ fn paint_paths(state: &FrameState<'_>, over: &OverMesh<'_>) {
 
 fn paint_path(state: &FrameState<'_>, over: &OverMesh<'_>, number: usize) {
     let plan = &state.session.document().settings().paths;
-    let tool = &state.features.paths.tool;
+    let tool = &state.feature::<Paths>().tool;
     let is_selected = tool.route_in(plan) == Some(number);
-    let shown = state.features.paths.finder.shown().get(number);
+    let shown = state.feature::<Paths>().finder.shown().get(number);
     let found = shown.and_then(|shown| shown.found.as_ref());
     let problem = shown.and_then(|shown| shown.problem.as_ref());
     let color = path_color(number);
@@ -113,20 +114,20 @@ fn paint_others(state: &FrameState<'_>, over: &OverMesh<'_>) {
         let points = over.line(path.points.iter().copied()).into_iter();
         paint_line(over.painter, points, color, width);
     };
-    let alternatives = &state.features.paths.finder.alternatives;
+    let alternatives = &state.feature::<Paths>().finder.alternatives;
     alternatives.paths().iter().for_each(|path| line(path, ALTERNATIVE_COLOR, THIN));
-    let selected = state.features.paths.tool.route_in(&state.session.document().settings().paths);
-    let shown = selected.and_then(|number| state.features.paths.finder.shown().get(number));
+    let selected = state.feature::<Paths>().tool.route_in(&state.session.document().settings().paths);
+    let shown = selected.and_then(|number| state.feature::<Paths>().finder.shown().get(number));
     let former = shown.and_then(|shown| shown.found.as_ref()?.former.as_deref());
     former.into_iter().for_each(|path| line(path, ALTERNATIVE_COLOR, THIN));
     let pointed = alternatives.pointed.and_then(|number| alternatives.paths().get(number));
-    let of_front = state.features.paths.finder.front.pointed().map(|point| &point.solution);
+    let of_front = state.feature::<Paths>().finder.front.pointed().map(|point| &point.solution);
     pointed.into_iter().chain(of_front).for_each(|path| line(path, POINTED_COLOR, WIDTH));
 }
 
 /// The place on a path that is pointed at in its profile.
 fn paint_marked(state: &FrameState<'_>, over: &OverMesh<'_>, found: Option<&FoundPath>) {
-    let (Some(found), Some(distance)) = (found, state.features.paths.tool.shown_distance) else { return };
+    let (Some(found), Some(distance)) = (found, state.feature::<Paths>().tool.shown_distance) else { return };
     let nearest = found
         .profile
         .iter()

@@ -7,10 +7,11 @@ use eframe::egui::Ui;
 use super::panel::MOST_WEIGHT;
 use super::{AlternativesCommand, PathCommand};
 use crate::app::command::Command;
+use crate::app::features::paths::Paths;
 use crate::app::kit::{FrameState, StripItem, end_gesture_when_released};
-use crate::app::widgets::{ActionButton, SliderRow, toggle_row};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
+use meshbrush_ui::widgets::{ActionButton, SliderRow, toggle_row};
 
 /// The caution of the paths, and which other paths are shown.
 pub static PATH_OPTIONS: [StripItem; 4] = [
@@ -34,22 +35,22 @@ fn caution_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let response = row.help(help).show(ui);
     if response.changed() {
         let cost = PathCost::Weighted(Weights { length: 1.0, risk: caution });
-        commands.push(Command::Path(PathCommand::Cost(cost)));
+        commands.push(Command::from(PathCommand::Cost(cost)));
     }
     end_gesture_when_released(&response, commands);
 }
 
 fn corridor_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut is_on = state.features.paths.finder.corridor.is_on;
+    let mut is_on = state.feature::<Paths>().finder.corridor.is_on;
     if toggle_row(ui, "Corridor", &mut is_on).changed() {
-        commands.push(Command::Path(PathCommand::ShowCorridor(is_on)));
+        commands.push(Command::from(PathCommand::ShowCorridor(is_on)));
     }
 }
 
 fn alternatives_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut is_on = state.features.paths.finder.alternatives.is_on;
+    let mut is_on = state.feature::<Paths>().finder.alternatives.is_on;
     if toggle_row(ui, "Alternatives", &mut is_on).changed() {
-        commands.push(Command::Path(PathCommand::Alternatives(AlternativesCommand::Show(is_on))));
+        commands.push(Command::from(PathCommand::Alternatives(AlternativesCommand::Show(is_on))));
     }
 }
 
@@ -57,6 +58,6 @@ fn swap_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let has_paths = !state.session.document().settings().paths.routes.is_empty();
     let button = ActionButton::new("Swap start and goal");
     if ui.add_enabled_ui(has_paths, |ui| ui.add(button)).inner.clicked() {
-        commands.push(Command::Path(PathCommand::Swap));
+        commands.push(Command::from(PathCommand::Swap));
     }
 }

@@ -6,10 +6,11 @@ use glam::DVec2;
 use super::colors::path_color;
 use super::{PATH_OPTIONS, PathCommand};
 use crate::app::command::Command;
+use crate::app::features::paths::Paths;
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, Tab, ToolSpec};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::document::PathPlan;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {
@@ -17,24 +18,25 @@ pub static PATH: ToolSpec = ToolSpec {
     cursor: CursorIcon::Crosshair,
     tab: Some(Tab::Paths),
     options: &PATH_OPTIONS,
-    hint: |state| if state.features.paths.tool.pending.is_some() { GOAL_HINT } else { HINT },
+    hint: |state| if state.feature::<Paths>().tool.pending.is_some() { GOAL_HINT } else { HINT },
     paint,
     press: |press, pointer, commands| {
         let at = pointer.world(press.at);
         let reach = REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
         let is_between = press.modifiers.command;
-        commands.push(Command::Path(PathCommand::Press { at, reach, is_between }));
-        Some(Box::new(SettingsDrag::new(press.at, |to| Command::Path(PathCommand::DragTo(to)))))
+        commands.push(Command::from(PathCommand::Press { at, reach, is_between }));
+        Some(Box::new(SettingsDrag::new(press.at, |to| Command::from(PathCommand::DragTo(to)))))
     },
     menu: |state, point| {
         let plan = &state.session.document().settings().paths;
-        let goal = state.features.paths.tool.pending.map(|_| ("Path to here", PathCommand::GoalAt(point)));
+        let goal =
+            state.feature::<Paths>().tool.pending.map(|_| ("Path to here", PathCommand::GoalAt(point)));
         let via =
             (!plan.routes.is_empty()).then_some(("Lead the path through here", PathCommand::ViaAt(point)));
-        let selected = state.features.paths.tool.selected_in(plan);
+        let selected = state.feature::<Paths>().tool.selected_in(plan);
         let delete = selected.map(|_| ("Delete the selected place", PathCommand::Delete));
         let entries = [Some(("Path from here", PathCommand::StartAt(point))), goal, via, delete];
-        entries.into_iter().flatten().map(|(title, command)| (title, Command::Path(command))).collect()
+        entries.into_iter().flatten().map(|(title, command)| (title, Command::from(command))).collect()
     },
     ..ToolSpec::new("Path", Key::P, Icon::PATH)
 };
@@ -86,7 +88,7 @@ impl PathTool {
 
 /// Draws the start without a goal. Paths with their places are drawn with every tool.
 fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
-    let Some(pending) = state.features.paths.tool.pending else { return };
+    let Some(pending) = state.feature::<Paths>().tool.pending else { return };
     let at = (over.screen_from_world)(pending);
     if let Some(pointer) = over.pointer {
         let ends = [at, pointer];

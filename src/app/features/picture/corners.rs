@@ -62,7 +62,7 @@ fn drag(ui: &Ui, place: Rect, name: &str, commands: &mut Vec<Command>) -> Option
         StrokeKind::Outside,
     );
     if response.drag_stopped() {
-        commands.push(Command::Edit(EditCommand::EndGesture));
+        commands.push(Command::from(EditCommand::EndGesture));
     }
     response.interact_pointer_pos().filter(|_| response.dragged())
 }
@@ -71,7 +71,7 @@ fn drag(ui: &Ui, place: Rect, name: &str, commands: &mut Vec<Command>) -> Option
 fn move_corner(background: &Background, opposite: DVec2, to: DVec2, commands: &mut Vec<Command>) {
     let bounds = WorldRect::spanning(opposite, to);
     if bounds.is_proper() && bounds != background.bounds {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Background(Some(Background {
+        commands.push(Command::from(EditCommand::Set(Setting::Background(Some(Background {
             bounds,
             ..background.clone()
         })))));

@@ -53,8 +53,8 @@ fn load(path: &Path, ctx: &mut Ctx<'_>) {
                 }
             }
             None => Outcome::PartRead(vec![
-                Command::Edit(EditCommand::Set(Setting::Background(shown))),
-                Command::Edit(EditCommand::EndGesture),
+                Command::from(EditCommand::Set(Setting::Background(shown))),
+                Command::from(EditCommand::EndGesture),
             ]),
         }
     });

@@ -1,6 +1,7 @@
 //! The kinds of files that the picture behind the mesh is read from.
 
-use crate::app::command::{Command, PictureCommand};
+use crate::app::command::Command;
+use crate::app::features::picture::PictureCommand;
 use crate::app::kit::{DataContents, DataRole, FileKind};
 
 /// A picture to trace.
@@ -9,7 +10,7 @@ pub static OPEN_PICTURE: FileKind = FileKind {
     endings: || vec!["png"],
     contents: "Pictures",
     folder: "backgrounds",
-    ..FileKind::new(|path| Command::Picture(PictureCommand::Open(path)))
+    ..FileKind::new(|path| Command::from(PictureCommand::Open(path)))
 };
 
 /// The use of a file that the picture has.

@@ -7,9 +7,9 @@ use super::OPEN_PICTURE;
 use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 
 /// The background picture: opacity and place.
 pub static BACKGROUND: Panel = Panel { name: "background", tab: Tab::Domain, place: 3, show };
@@ -28,7 +28,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
                     "A map or photograph to trace. A world file beside it (.pgw, .wld) says where it lies.",
                 );
                 if ui.add(ActionButton::new("Open background…")).clicked() {
-                    commands.push(Command::File(FileCommand::Ask(&OPEN_PICTURE)));
+                    commands.push(Command::from(FileCommand::Ask(&OPEN_PICTURE)));
                 }
             }
         }
@@ -42,12 +42,12 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, background: &Background, commands: 
     let help = "How strongly the picture shows through the triangles.";
     let response = SliderRow::new("Opacity", &mut opacity, 0.0..=1.0).step(0.01).help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(changed(Background { opacity, ..background.clone() }))));
+        commands.push(Command::from(EditCommand::Set(changed(Background { opacity, ..background.clone() }))));
     }
     end_gesture_when_released(&response, commands);
     let mut shown = state.view.aids.picture_corners;
     if toggle_row(ui, "Drag corners on the canvas", &mut shown).changed() {
-        commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::PictureCorners)));
+        commands.push(Command::from(ViewCommand::ToggleAid(CanvasAid::PictureCorners)));
     }
     let Rect { min, max } = background.bounds;
     let mut sides = [min.x, min.y, max.x, max.y];

@@ -9,7 +9,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::corners::NAMES;
-use crate::app::command::{Command, PictureCommand};
+use crate::app::command::Command;
+use crate::app::features::picture::PictureCommand;
 use crate::app::tests::{
     TALL, Window, choose_in_palette, document, entries, fingerprint, folder, key, move_to, notice,
     open_section, press_at, release, send, set, settings, type_into, value_of, wait_for_notice, wait_until,
@@ -33,7 +34,7 @@ fn background(window: &Window) -> Option<&Background> {
 
 fn with_background(folder: PathBuf) -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Picture(PictureCommand::Open(picture(folder))));
+    send(&mut window, Command::from(PictureCommand::Open(picture(folder))));
     wait_until(&mut window, |window| background(window).is_some());
     window
 }
@@ -89,7 +90,7 @@ fn a_picture_that_cannot_be_shown_is_refused_with_a_sentence() {
     let file = picture(folder.clone());
     fs::write(folder.join("map.wld"), "0.25\n0.1\n0\n-0.25\n0\n0\n").unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::Picture(PictureCommand::Open(file)));
+    send(&mut window, Command::from(PictureCommand::Open(file)));
     let problem = wait_for_notice(&mut window);
     assert!(problem.contains("map.wld") && problem.contains("north up"), "{problem}");
     assert_eq!(background(&window), None);

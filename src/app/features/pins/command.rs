@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::app::command::CommandSet;
+
 use glam::DVec2;
 
 /// One thing to do with pins. Points and lengths are in world units.
@@ -41,3 +43,5 @@ pub enum PinsCommand {
     /// Writes the table.
     Export(PathBuf),
 }
+
+impl CommandSet for PinsCommand {}

@@ -10,7 +10,8 @@ use super::files::ROLES;
 use super::load::load_pins;
 use super::table::{copy_table, counted, export_table, nearest_pin};
 use super::{PINS, Pins, PinsCommand, entries, entries_at, marks};
-use crate::app::command::{Command, InspectCommand};
+use crate::app::command::Command;
+use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::{Ctx, Feature, NO_LIMIT, Row};
 use meshbrush_core::document::Setting;
 
@@ -48,7 +49,7 @@ impl Feature for Pins {
                 ctx.session.tell(format!("Copied: the table of {}.", counted(count)));
             }
             PinsCommand::ExportAs(path) => {
-                let export = |path| Command::Pins(PinsCommand::Export(path));
+                let export = |path| Command::from(PinsCommand::Export(path));
                 ctx.commands.extend(ctx.project.save_table_as(path, export));
             }
             PinsCommand::Export(path) => export_table(ctx.session, ctx.background, &path),
@@ -63,7 +64,7 @@ impl Pins {
         self.selected = nearest_pin(pins, at, reach);
         let pin = self.selected.map(|number| pins[number]);
         self.grip = pin.map(|pin| pin - at);
-        ctx.send(Command::Inspect(InspectCommand::Query(pin.unwrap_or(at))));
+        ctx.send(Command::from(InspectCommand::Query(pin.unwrap_or(at))));
     }
 
     fn drag(&mut self, to: DVec2, ctx: &mut Ctx<'_>) {

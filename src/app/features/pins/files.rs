@@ -1,6 +1,7 @@
 //! The table of the pins as a file.
 
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::Command;
+use crate::app::features::pins::PinsCommand;
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// The table of the pins.
@@ -11,8 +12,8 @@ pub static EXPORT_PINS: FileKind = FileKind {
     contents: "Tables",
     folder: "exports",
     suffix: " pins",
-    command_after_browsing: |path| Command::Pins(PinsCommand::Export(path)),
-    ..FileKind::new(|path| Command::Pins(PinsCommand::ExportAs(path)))
+    command_after_browsing: |path| Command::from(PinsCommand::Export(path)),
+    ..FileKind::new(|path| Command::from(PinsCommand::ExportAs(path)))
 };
 
 /// Points as pins.
@@ -22,7 +23,7 @@ pub static OPEN_PINS: FileKind = FileKind {
     endings: || vec!["csv"],
     contents: "Tables of points",
     folder: "points",
-    ..FileKind::new(|path| Command::Pins(PinsCommand::Open(path)))
+    ..FileKind::new(|path| Command::from(PinsCommand::Open(path)))
 };
 
 /// The use of a file that pins have.

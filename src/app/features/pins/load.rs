@@ -27,7 +27,7 @@ pub fn load_pins(session: &Session, background: &mut Background, path: &Path) {
             .zip(extent)
             .and_then(|(empty, extent)| empty.over(&file, with_space_around(extent), LengthUnit::None));
         let Some(mut settings) = over else {
-            return Outcome::PartRead(vec![Command::Pins(PinsCommand::AddAll(points))]);
+            return Outcome::PartRead(vec![Command::from(PinsCommand::AddAll(points))]);
         };
         settings.pins = Arc::new(with_points(Vec::new(), points));
         match show_over_extent(settings, &file, &[]) {

@@ -4,12 +4,14 @@ use eframe::egui::{Color32, Pos2, Rect, Role, Sense, Stroke, WidgetInfo, pos2, v
 use glam::DVec2;
 
 use super::table::nearest_pin;
-use crate::app::kit::marks::{NUMBER_DISC, paint_number};
+use crate::app::features::pins::Pins;
+use crate::app::kit::marks::paint_number;
 use crate::app::kit::{FrameState, GRIP_POINTS, OverMesh};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
-use crate::app::theme::font;
-use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::font;
+use meshbrush_ui::widgets::{format, paint_floating};
 
 /// The most pins that are drawn: more would hide the mesh.
 const MOST_DRAWN: usize = 2_000;
@@ -23,7 +25,7 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     if pins.is_empty() {
         return;
     }
-    let selected = state.features.pins.selected_of(pins);
+    let selected = state.feature::<Pins>().selected_of(pins);
     let hovered = hovered(state, pins, over);
     let view = over.painter.clip_rect().expand(2.0 * NUMBER_OFFSET);
     let places = pins.iter().map(|&pin| (over.screen_from_world)(pin)).enumerate();

@@ -6,9 +6,10 @@ use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use super::table::PinRow;
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::pins::Pins;
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Section, format};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{Section, format};
 
 /// All pins with their triangles and values; how to pin a point while there are none.
 pub static PINS: Panel = Panel { name: "pins", tab: Tab::Inspect, place: 1, show };
@@ -30,9 +31,9 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if count == 0 {
             return remark(ui, "Pin a query[ ({pin-the-queried-point})] to follow its triangle and values through every edit.");
         }
-        if !state.features.pins.reader.is_current(state.session, state.view.quantity) {
+        if !state.feature::<Pins>().reader.is_current(state.session, state.view.quantity) {
             // They are read only while the table is shown.
-            commands.push(Command::Pins(PinsCommand::Read));
+            commands.push(Command::from(PinsCommand::Read));
         }
         table(ui, state, commands);
         buttons(ui, state, commands);
@@ -42,7 +43,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// The header and the rows in sight. It scrolls both ways.
 fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let pins = &state.session.document().settings().pins;
-    let selected = state.features.pins.selected_of(pins);
+    let selected = state.feature::<Pins>().selected_of(pins);
     let height = ROW * (pins.len().min(MOST_ROWS) + 1) as f32 + 12.0;
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::both().id_salt("table of pins").max_height(height).min_scrolled_height(height);
@@ -76,7 +77,7 @@ fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             if response.clicked() {
                 // Keys such as Delete belong to the canvas.
                 response.surrender_focus();
-                commands.push(Command::Pins(PinsCommand::Select(number)));
+                commands.push(Command::from(PinsCommand::Select(number)));
             }
             response.on_hover_text("A click queries the pin. Drag it on the canvas with the query tool.");
         }
@@ -92,7 +93,7 @@ fn cells(state: &FrameState<'_>, number: usize) -> [String; COLUMNS] {
     let [x, y] = at.to_array().map(|value| format::fixed(value, decimals));
     let first = [(number + 1).to_string(), x, y];
     let read =
-        state.features.pins.reader.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
+        state.feature::<Pins>().reader.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
     let rest = match read {
         None => [(); COLUMNS - 3].map(|()| "…".to_owned()),
         Some(PinRow { triangle: None, .. }) => {
@@ -154,8 +155,8 @@ fn paint_row(
 fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let is_queried = state.readout.is_some();
     let pins = &state.session.document().settings().pins;
-    let is_selected = state.features.pins.selected_of(pins).is_some();
-    let pin = Command::Pins;
+    let is_selected = state.feature::<Pins>().selected_of(pins).is_some();
+    let pin = Command::from;
     let rows = [
         vec![
             ("Pin the query", is_queried, pin(PinsCommand::Pin)),
@@ -163,7 +164,7 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ],
         vec![
             ("Delete pin", is_selected, pin(PinsCommand::Delete)),
-            ("Export table…", true, Command::File(FileCommand::Ask(&EXPORT_PINS))),
+            ("Export table…", true, Command::from(FileCommand::Ask(&EXPORT_PINS))),
         ],
         vec![("Delete all pins", true, pin(PinsCommand::DeleteAll))],
     ];

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::app::background::{Aim, Background, Outcome, exported};
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::Command;
+use crate::app::features::pins::PinsCommand;
 use crate::app::kit::nearest_within;
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
-use crate::app::widgets::format;
 use meshbrush_io::io::{self, Meter};
+use meshbrush_ui::widgets::format;
 
 /// The data that the values of all pins depend on.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +102,7 @@ pub fn copy_table(session: &Session, background: &mut Background) {
         match write(&mut text, meter) {
             Ok(()) => {
                 let text = String::from_utf8_lossy(&text).into_owned();
-                Outcome::PartRead(vec![Command::Pins(PinsCommand::Copied(text, count))])
+                Outcome::PartRead(vec![Command::from(PinsCommand::Copied(text, count))])
             }
             Err(_) if meter.is_cancelled() => Outcome::Exported("The table of pins was not copied.".into()),
             Err(error) => Outcome::NotWritten(format!("The table of pins was not copied. {error}")),

@@ -7,8 +7,9 @@ use eframe::egui::{Key, Modifiers, OutputCommand, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, PinsCommand, ShellCommand};
+use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::features::inspection::QUERY;
+use crate::app::features::pins::{Pins, PinsCommand};
 use crate::app::tests::{
     FREE, TALL, Window, click, document, entries, folder, key, move_to, notice, on_screen, press, release,
     send, settings, step_until, stroke, value_of, wait_for_notice, wait_until, window_of,
@@ -29,7 +30,7 @@ fn is_near(a: DVec2, b: DVec2) -> bool {
 /// Returns a window with the query tool and two pins.
 fn window_with_pins() -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     for point in [AT, FREE] {
         click(&mut window, point, Modifiers::NONE);
         key(&mut window, Modifiers::SHIFT, Key::P);
@@ -95,16 +96,16 @@ fn the_table_follows_every_edit() {
             let triangle = readout(window, at).unwrap();
             let row = row(window, number + 1);
             assert_eq!(row.len(), 10, "{row:?}");
-            assert_eq!(row[2], crate::app::widgets::format::count(triangle.id.index() as u64));
+            assert_eq!(row[2], meshbrush_ui::widgets::format::count(triangle.id.index() as u64));
             assert_eq!(row[3], triangle.level.to_string());
             let zeta: f64 = row[4..7].iter().map(|zeta| zeta.parse::<f64>().unwrap()).sum();
             assert!((zeta - 1.0).abs() < 2e-3, "{row:?}");
         }
     };
     check(&window);
-    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::features::painting::BRUSH)));
+    send(&mut window, Command::from(ShellCommand::Use(&crate::app::features::painting::BRUSH)));
     stroke(&mut window, FREE, FREE + dvec2(0.0, 0.05));
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     assert_ne!(row(&window, 2), before, "paint refines around the second pin");
     check(&window);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -142,18 +143,18 @@ fn a_pin_is_dragged_as_one_gesture_and_deleted_by_key() {
 #[test]
 fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
     let mut window = window_with_pins();
-    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::features::painting::BRUSH)));
+    send(&mut window, Command::from(ShellCommand::Use(&crate::app::features::painting::BRUSH)));
     stroke(&mut window, AT, AT + dvec2(0.1, 0.05));
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     let expected = expected_table(&window);
     assert_eq!(expected.lines().count(), 3);
-    send(&mut window, Command::Pins(PinsCommand::Copy));
+    send(&mut window, Command::from(PinsCommand::Copy));
     step_until(&mut window, |window| copied(window).is_some());
     assert_eq!(copied(&window), Some(&expected));
     let file = folder("pins", "export").join("pins.csv");
     wait_until(&mut window, |window| notice(window).starts_with("Copied: the table of 2 pins"));
-    send(&mut window, Command::Shell(ShellCommand::DismissNotice));
-    send(&mut window, Command::Pins(PinsCommand::ExportAs(file.clone())));
+    send(&mut window, Command::from(ShellCommand::DismissNotice));
+    send(&mut window, Command::from(PinsCommand::ExportAs(file.clone())));
     let notice = wait_for_notice(&mut window);
     assert!(notice.starts_with("2 pins written to"), "{notice}");
     assert_eq!(fs::read_to_string(file).unwrap(), expected);
@@ -165,17 +166,17 @@ fn many_pins_are_read_over_several_frames_and_an_idle_window_reads_none() {
     let many = (0..5000).map(|i| dvec2(f64::from(i) / 5000.0, 0.5)).collect();
     send(
         &mut window,
-        Command::Edit(EditCommand::Set(meshbrush_core::document::Setting::Pins(std::sync::Arc::new(many)))),
+        Command::from(EditCommand::Set(meshbrush_core::document::Setting::Pins(std::sync::Arc::new(many)))),
     );
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(EditCommand::EndGesture));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     window.run();
     let is_current = |window: &Window| {
         let app = window.state();
-        app.features.pins.reader.is_current(app.session(), app.view().quantity)
+        app.features.get::<Pins>().reader.is_current(app.session(), app.view().quantity)
     };
     assert!(is_current(&window));
-    assert_eq!(window.state().features.pins.reader.rows().len(), 5000);
+    assert_eq!(window.state().features.get::<Pins>().reader.rows().len(), 5000);
     // The harness runs until no frame is asked for any more.
     assert!(window.try_run_realtime().is_ok());
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::PlotKind;
+use crate::app::command::CommandSet;
 use meshbrush_core::surface::CurvePoint;
 
 /// One thing to do with plots.
@@ -33,4 +33,45 @@ pub enum PlotsCommand {
     ExportAs(PathBuf),
     /// Writes the plot.
     Export(PathBuf),
+}
+
+impl CommandSet for PlotsCommand {}
+
+/// The plots that can be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotKind {
+    /// Triangles per level.
+    Triangles,
+    /// Closure cost: required and forced bisections per level.
+    Bisections,
+    /// The smallest and the largest h per level.
+    Diameters,
+    /// The error from a surface over the number of triangles.
+    Errors,
+    /// The time for one triangle over the number of triangles.
+    Time,
+    /// The time over the number of triangles, as in Figure 5 of the report.
+    Figure5,
+}
+
+impl PlotKind {
+    /// All of them with their names.
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::Triangles, "Triangles per level"),
+        (Self::Bisections, "Closure cost"),
+        (Self::Diameters, "h per level"),
+        (Self::Errors, "Error against triangles"),
+        (Self::Time, "Time per triangle"),
+        (Self::Figure5, "Figure 5 of the report"),
+    ];
+
+    /// Returns the name.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(kind, _)| *kind == self).map_or("", |(_, name)| name)
+    }
+
+    /// Returns whether it shows the experiment of the report and not the mesh of the document.
+    pub fn is_of_experiment(self) -> bool {
+        matches!(self, Self::Time | Self::Figure5)
+    }
 }

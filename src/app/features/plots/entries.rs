@@ -5,20 +5,21 @@ use eframe::egui::Key;
 use super::files::EXPORT_PLOT;
 use super::{PlotKind, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::plots::Plots;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// Returns the plots, and what to do with them.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::Plots(command));
-    let plots = &state.features.plots;
+    let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::from(command));
+    let plots = &state.feature::<Plots>();
     let show = item("Show the plots", PlotsCommand::Show(plots.kind())).key(Key::F9).group();
     let of_kind = |(kind, name): (PlotKind, &str)| {
         let title = format!("Plot {}{}", name[..1].to_lowercase(), &name[1..]);
-        let shown = CatalogItem::new(Menu::Method, title, Command::Plots(PlotsCommand::Show(kind)));
+        let shown = CatalogItem::new(Menu::Method, title, Command::from(PlotsCommand::Show(kind)));
         let is_of_method = kind == PlotKind::Bisections || kind.is_of_experiment();
         shown.checked(plots.kind() == kind).in_menu(is_of_method)
     };
-    let of_method = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::Plots(command));
+    let of_method = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::from(command));
     let measure = if plots.is_measuring() {
         of_method("Cancel the measuring of time", PlotsCommand::CancelMeasuring)
     } else {
@@ -26,7 +27,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     };
     let measure = measure.id("measure-the-time-per-triangle");
     let is_known = plots.is_known();
-    let export = CatalogItem::new(Menu::View, "Export plot…", Command::File(FileCommand::Ask(&EXPORT_PLOT)));
+    let export = CatalogItem::new(Menu::View, "Export plot…", Command::from(FileCommand::Ask(&EXPORT_PLOT)));
     let copy = item("Copy the numbers of the plot", PlotsCommand::Copy);
     let mut items = vec![show];
     items.extend(PlotKind::ALL.map(of_kind));

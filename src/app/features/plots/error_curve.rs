@@ -138,9 +138,9 @@ pub fn take_point(point: CurvePoint, ctx: &mut Ctx<'_>) {
                 SurfaceGoal::AtMost(_) => SurfaceGoal::AtMost(point.triangles),
             };
             let kind = LayerKind::Surface(Surface { goal, ..surface.clone() });
-            Command::Layer(LayerCommand::SetKind(layer.id, Box::new(kind)))
+            Command::from(LayerCommand::SetKind(layer.id, Box::new(kind)))
         })
         .collect();
     changes.into_iter().for_each(|change| ctx.send(change));
-    ctx.send(Command::Edit(EditCommand::EndGesture));
+    ctx.send(Command::from(EditCommand::EndGesture));
 }

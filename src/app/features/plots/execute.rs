@@ -2,7 +2,8 @@
 
 use super::error_curve::take_point;
 use super::{PLOTS, PlotKind, Plots, PlotsCommand, entries};
-use crate::app::command::{Command, StepCommand};
+use crate::app::command::Command;
+use crate::app::features::stepping::StepCommand;
 use crate::app::kit::{Ctx, Feature, Row};
 
 impl Feature for Plots {
@@ -37,7 +38,7 @@ impl Feature for Plots {
             }
             PlotsCommand::ExportAs(path) => {
                 let path = if path.extension().is_none() { path.with_extension("svg") } else { path };
-                let export = |path| Command::Plots(PlotsCommand::Export(path));
+                let export = |path| Command::from(PlotsCommand::Export(path));
                 ctx.commands.extend(ctx.project.save_table_as(path, export));
             }
             PlotsCommand::Export(path) => self.export(ctx.session, ctx.background, &path),
@@ -55,7 +56,7 @@ impl Feature for Plots {
 impl Plots {
     /// Opens the panel with a plot, also while steps are shown or the panels are hidden.
     fn show(&mut self, kind: PlotKind, ctx: &mut Ctx<'_>) {
-        ctx.send(Command::Steps(StepCommand::Leave));
+        ctx.send(Command::from(StepCommand::Leave));
         ctx.view.panels = true;
         self.choose(kind);
         ctx.view.revealed_panel = Some(PLOTS.name);

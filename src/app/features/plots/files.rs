@@ -13,6 +13,6 @@ pub static EXPORT_PLOT: FileKind = FileKind {
     contents: "Drawings and tables",
     folder: "exports",
     suffix: " plot",
-    command_after_browsing: |path| Command::Plots(PlotsCommand::Export(path)),
-    ..FileKind::new(|path| Command::Plots(PlotsCommand::ExportAs(path)))
+    command_after_browsing: |path| Command::from(PlotsCommand::Export(path)),
+    ..FileKind::new(|path| Command::from(PlotsCommand::ExportAs(path)))
 };

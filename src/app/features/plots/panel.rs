@@ -6,12 +6,12 @@ use super::files::EXPORT_PLOT;
 use super::{PlotKind, Plots, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::widgets::{
-    ActionButton, NumberRow, Section, dropdown_row, format, plot_picker, plot_view, value_row,
-};
 use meshbrush_core::surface::CurvePoint;
 use meshbrush_study::plot::Plot;
 use meshbrush_study::report::Experiment;
+use meshbrush_ui::widgets::{
+    ActionButton, NumberRow, Section, dropdown_row, format, plot_picker, plot_view, value_row,
+};
 
 /// A chosen plot, and what it takes to measure those of time.
 pub static PLOTS: Panel = Panel { name: "plots", tab: Tab::Mesh, place: 3, show };
@@ -27,17 +27,17 @@ const LEAST_LEVEL: u32 = 6;
 const MOST_RUNS: u32 = 100;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let plots = &state.features.plots;
+    let plots = &state.feature::<Plots>();
     Section::new("Plots").closed().reveal(PLOTS.is_revealed(state)).show(ui, |ui| {
         let mut kind = plots.kind();
         if dropdown_row(ui, "Plot", &mut kind, &PlotKind::ALL).changed() {
-            commands.push(Command::Plots(PlotsCommand::Choose(kind)));
+            commands.push(Command::from(PlotsCommand::Choose(kind)));
         }
         if kind.is_of_experiment() {
             measuring(ui, plots, commands);
         } else if plots.is_due(state.session) {
             // The figures are computed only while they are shown.
-            commands.push(Command::Plots(PlotsCommand::Compute));
+            commands.push(Command::from(PlotsCommand::Compute));
         }
         ui.add_space(6.0);
         let known = plots.plot(state.session);
@@ -64,8 +64,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             }
         });
         let is_known = known.is_some();
-        let copy = Command::Plots(PlotsCommand::Copy);
-        let export = Command::File(FileCommand::Ask(&EXPORT_PLOT));
+        let copy = Command::from(PlotsCommand::Copy);
+        let export = Command::from(FileCommand::Ask(&EXPORT_PLOT));
         button_rows(
             ui,
             [vec![("Export plot…", is_known, export), ("Copy numbers", is_known, copy)]],
@@ -88,7 +88,7 @@ fn error_curve(ui: &mut Ui, plot: &Plot, commands: &mut Vec<Command>) {
     };
     let picked = plot_picker(ui, PlotKind::Errors.name(), plot, HEIGHT, tip);
     if let Some(picked) = picked.filter(|picked| picked.is_clicked) {
-        commands.push(Command::Plots(PlotsCommand::TakeError(point_at(picked.point))));
+        commands.push(Command::from(PlotsCommand::TakeError(point_at(picked.point))));
     }
 }
 
@@ -99,7 +99,7 @@ pub fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
         let (runs, levels) = (plots.runs, plots.last_level);
         value_row(ui, "Measuring", &format!("run {} of {runs}, level {level} of {levels}", round.max(1)));
         if ui.add(ActionButton::new("Cancel measuring").vanishing()).clicked() {
-            commands.push(Command::Plots(PlotsCommand::CancelMeasuring));
+            commands.push(Command::from(PlotsCommand::CancelMeasuring));
         }
         return;
     }
@@ -108,9 +108,9 @@ pub fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
     let deepest = NumberRow::new("Deepest level", &mut level).range(levels).integer().show(ui);
     let often = NumberRow::new("Runs", &mut runs).range(1.0..=f64::from(MOST_RUNS)).integer().show(ui);
     if deepest.changed() || often.changed() {
-        commands.push(Command::Plots(PlotsCommand::SetUp { last_level: level as u32, runs: runs as u32 }));
+        commands.push(Command::from(PlotsCommand::SetUp { last_level: level as u32, runs: runs as u32 }));
     }
     if ui.add(ActionButton::new("Measure")).clicked() {
-        commands.push(Command::Plots(PlotsCommand::Measure));
+        commands.push(Command::from(PlotsCommand::Measure));
     }
 }

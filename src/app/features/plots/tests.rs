@@ -8,14 +8,15 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{PlotKind, PlotsCommand};
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
+use crate::app::features::plots::Plots;
 use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, folder, key, open_section, send, settings, stroke, triangles,
     wait_for_notice, wait_until, window_of,
 };
-use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_study::levels::Bisections;
+use meshbrush_ui::widgets::format;
 
 /// Returns the note below a plot.
 fn note(window: &Window, plot: &str) -> Option<String> {
@@ -24,14 +25,19 @@ fn note(window: &Window, plot: &str) -> Option<String> {
 }
 
 fn is_current(window: &Window) -> bool {
-    window.state().features().plots.plot(window.state().session()).is_some_and(|(_, is_current)| is_current)
+    window
+        .state()
+        .features()
+        .get::<Plots>()
+        .plot(window.state().session())
+        .is_some_and(|(_, is_current)| is_current)
 }
 
 #[test]
 fn a_key_opens_the_plots_which_follow_the_mesh() {
     let mut window = window_of(TALL);
     assert!(window.query_by_role_and_label(Role::Image, "Triangles per level").is_none());
-    assert!(!window.state().features().plots.is_known(), "nothing is computed unless it is shown");
+    assert!(!window.state().features().get::<Plots>().is_known(), "nothing is computed unless it is shown");
     key(&mut window, Modifiers::NONE, Key::F9);
     wait_until(&mut window, is_current);
     let of_mesh = |window: &Window| format!("{} triangles", format::count(triangles(window) as u64));
@@ -79,12 +85,12 @@ fn the_plot_is_chosen_in_the_panel() {
 fn the_time_is_measured_when_the_button_is_clicked() {
     let mut window = window_of(TALL);
     choose(&mut window, "Method", "Plot time per triangle");
-    assert!(!window.state().features().plots.is_measuring(), "never by itself");
-    send(&mut window, Command::Plots(PlotsCommand::SetUp { last_level: 6, runs: 2 }));
+    assert!(!window.state().features().get::<Plots>().is_measuring(), "never by itself");
+    send(&mut window, Command::from(PlotsCommand::SetUp { last_level: 6, runs: 2 }));
     window.get_by_role_and_label(Role::Button, "Measure").click();
     window.run();
-    wait_until(&mut window, |window| !window.state().features().plots.is_measuring());
-    let meshes = &window.state().features().plots.experiment().meshes;
+    wait_until(&mut window, |window| !window.state().features().get::<Plots>().is_measuring());
+    let meshes = &window.state().features().get::<Plots>().experiment().meshes;
     assert_eq!(meshes.iter().map(|mesh| mesh.level).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6]);
     assert_eq!(meshes[4].triangles, 9_560);
     assert!(meshes.iter().all(|mesh| mesh.runs.len() == 2), "{meshes:?}");
@@ -110,8 +116,8 @@ fn measuring_is_cancelled() {
     window.run();
     window.get_by_role_and_label(Role::Button, "Cancel measuring").click();
     window.run();
-    assert!(!window.state().features().plots.is_measuring());
-    assert!(window.state().features().plots.experiment().meshes.len() < 13);
+    assert!(!window.state().features().get::<Plots>().is_measuring());
+    assert!(window.state().features().get::<Plots>().experiment().meshes.len() < 13);
     assert!(window.query_by_role_and_label(Role::Button, "Measure").is_some());
 }
 
@@ -119,11 +125,11 @@ fn measuring_is_cancelled() {
 fn why_an_experiment_ended_is_said() {
     let mut window = window_of(TALL);
     let (job, output) = window.state().jobs.expect();
-    window.state_mut().features.plots.measuring = Some(job);
+    window.state_mut().features.get_mut::<Plots>().measuring = Some(job);
     let problem = "There is no memory for this mesh.";
     output.send(Err(problem.into()));
     assert_eq!(wait_for_notice(&mut window), problem);
-    assert!(!window.state().features().plots.is_measuring());
+    assert!(!window.state().features().get::<Plots>().is_measuring());
 }
 
 #[test]
@@ -133,13 +139,13 @@ fn plots_are_exported_as_drawing_and_table() {
     key(&mut window, Modifiers::COMMAND, Key::P);
     assert!(window.get_by_role_and_label(Role::MenuItem, "Export plot…").accesskit_node().is_disabled());
     key(&mut window, Modifiers::NONE, Key::Escape);
-    send(&mut window, Command::Plots(PlotsCommand::Show(PlotKind::Bisections)));
+    send(&mut window, Command::from(PlotsCommand::Show(PlotKind::Bisections)));
     wait_until(&mut window, is_current);
     let mut written = |name: &str| {
         let path = folder.join(name);
-        send(&mut window, Command::Plots(PlotsCommand::ExportAs(path.clone())));
+        send(&mut window, Command::from(PlotsCommand::ExportAs(path.clone())));
         assert!(wait_for_notice(&mut window).starts_with("The plot was written to "));
-        send(&mut window, Command::Shell(ShellCommand::DismissNotice));
+        send(&mut window, Command::from(ShellCommand::DismissNotice));
         path
     };
     let table = fs::read_to_string(written("cost.csv")).unwrap();
@@ -154,7 +160,7 @@ fn plots_are_exported_as_drawing_and_table() {
 fn every_control_of_the_plots_has_a_sentence() {
     let mut window = window_of(TALL);
     for (kind, _) in PlotKind::ALL {
-        send(&mut window, Command::Plots(PlotsCommand::Show(kind)));
+        send(&mut window, Command::from(PlotsCommand::Show(kind)));
         window.run();
         assert_eq!(crate::app::tests::tips::unexplained(&window), [""; 0], "{}", kind.name());
     }
@@ -163,15 +169,15 @@ fn every_control_of_the_plots_has_a_sentence() {
 #[test]
 fn the_curve_of_errors_is_that_of_the_document_also_where_its_mesh_was_given_up() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Heights)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Heights)));
     wait_until(&mut window, is_current);
     let spacing = settings(&window).spacing;
     for setting in [Setting::MaxTriangles(5000), Setting::Spacing(0.5 * spacing)] {
-        send(&mut window, Command::Edit(EditCommand::Set(setting)));
-        send(&mut window, Command::Edit(EditCommand::EndGesture));
+        send(&mut window, Command::from(EditCommand::Set(setting)));
+        send(&mut window, Command::from(EditCommand::EndGesture));
     }
     wait_until(&mut window, is_current);
-    let (plot, _) = window.state().features().plots.plot(window.state().session()).unwrap();
+    let (plot, _) = window.state().features().get::<Plots>().plot(window.state().session()).unwrap();
     let coarse = plot.series.iter().find(|series| series.name == "Uniform mesh").unwrap().points[0];
     assert_eq!(coarse[0], 2048.0, "four times the triangles of twice the spacing");
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{RegionShape, RegionTarget};
+use crate::app::command::CommandSet;
 use meshbrush_core::document::DrawnShape;
 
 /// One thing to do with a region drawn by hand. Points are in world units.
@@ -31,4 +31,32 @@ pub enum RegionCommand {
     Rename(usize, String),
     /// Removes the mask, or the keep-out region, that the tool draws on.
     Clear,
+}
+
+impl CommandSet for RegionCommand {}
+
+/// What the region tool draws on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegionTarget {
+    /// The mask of the selected layer.
+    #[default]
+    Mask,
+    /// A keep-out region of paths.
+    KeepOut,
+    /// The shapes to which the selected layer measures the distance.
+    Shapes,
+}
+
+/// What the region tool draws with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegionShape {
+    /// The brush ring.
+    #[default]
+    Brush,
+    /// A polygon, corner by corner.
+    Polygon,
+    /// A polyline, among shapes only.
+    Line,
+    /// Points, among shapes only.
+    Point,
 }

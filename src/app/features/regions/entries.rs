@@ -4,13 +4,14 @@ use eframe::egui::Key;
 
 use super::{REGION, RegionCommand, RegionShape, RegionTarget};
 use crate::app::command::Command;
+use crate::app::features::regions::RegionTool;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let tool = &state.tools.region;
+    let tool = state.tools.settings::<RegionTool>();
     // The menu has what the selected tool does.
     let is_tool = state.tools.tool == &REGION;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Region(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::from(command));
     let target = |title: &str, target| {
         item(title, RegionCommand::Target(target)).checked(is_tool && tool.target == target)
     };

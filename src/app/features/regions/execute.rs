@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::gestures::GESTURES;
 use super::{REGION, RegionCommand, RegionShape, RegionTarget, Regions, entries};
 use crate::app::command::{Command, LayerCommand};
+use crate::app::features::regions::RegionTool;
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::session::Session;
 use meshbrush_core::document::{Drawing, DrawnPart, DrawnShape, KeepOut, PathPlan, Setting, Settings};
@@ -16,7 +17,7 @@ impl Feature for Regions {
     const ROW: Row = Row { tools: &[&REGION], gestures: &GESTURES, entries: entries::entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: RegionCommand, ctx: &mut Ctx<'_>) {
-        let tool = &mut ctx.tools.region;
+        let tool = ctx.tools.settings_mut::<RegionTool>();
         match command {
             RegionCommand::Draw(shape, adds) => draw(shape, adds, ctx),
             RegionCommand::AddCorner(corner) => tool.corners.push(corner),
@@ -50,7 +51,7 @@ impl Feature for Regions {
     }
 
     fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
-        !std::mem::take(&mut ctx.tools.region.corners).is_empty()
+        !std::mem::take(&mut ctx.tools.settings_mut::<RegionTool>().corners).is_empty()
     }
 }
 
@@ -62,7 +63,7 @@ fn use_tool(ctx: &mut Ctx<'_>) {
 /// Draws a shape on the target of the tool, or says why it has none.
 fn draw(shape: DrawnShape, adds: bool, ctx: &mut Ctx<'_>) {
     ctx.tools.note_use(&REGION);
-    let part = match ctx.tools.region.target {
+    let part = match ctx.tools.settings::<RegionTool>().target {
         RegionTarget::Mask => layer_to_draw_on(ctx.session).map(|layer| DrawnPart::Mask(layer.id)),
         RegionTarget::KeepOut => keep_out_to_draw_on(&shape, adds, ctx),
         RegionTarget::Shapes => match layer_of_shapes(ctx.session) {
@@ -105,14 +106,14 @@ fn keep_out_to_draw_on(shape: &DrawnShape, adds: bool, ctx: &mut Ctx<'_>) -> Res
         DrawnShape::Point(point) => Some(*point),
     };
     // The number after the last one belongs to a region that is on its way to the document.
-    let chosen = ctx.tools.region.keep_out.filter(|&number| number < regions.len() || adds);
+    let chosen = ctx.tools.settings::<RegionTool>().keep_out.filter(|&number| number < regions.len() || adds);
     let under = || regions.iter().position(|region| first.is_some_and(|first| region.mask.contains(first)));
     let number = match chosen.filter(|&number| number <= regions.len()) {
         Some(number) => number,
         None if adds => regions.len(),
         None => under().or(regions.len().checked_sub(1)).ok_or(NO_KEEP_OUT)?,
     };
-    ctx.tools.region.keep_out = Some(number);
+    ctx.tools.settings_mut::<RegionTool>().keep_out = Some(number);
     Ok(DrawnPart::KeepOut(number))
 }
 
@@ -134,7 +135,7 @@ fn add_layer_of(shape: &DrawnShape, ctx: &mut Ctx<'_>) {
 
 /// Closes the polygon, or ends the line, and draws it.
 fn close(ctx: &mut Ctx<'_>) {
-    let tool = &ctx.tools.region;
+    let tool = ctx.tools.settings::<RegionTool>();
     let is_line = tool.shape() == RegionShape::Line;
     let (least, problem) = if is_line {
         (2, "A line needs two corners: click to set another one.")
@@ -145,7 +146,7 @@ fn close(ctx: &mut Ctx<'_>) {
         return ctx.session.tell(problem.into());
     }
     let adds = !tool.cuts;
-    let corners = std::mem::take(&mut ctx.tools.region.corners);
+    let corners = std::mem::take(&mut ctx.tools.settings_mut::<RegionTool>().corners);
     let shape = if is_line { DrawnShape::Line(corners) } else { DrawnShape::Area(CutShape::Ring(corners)) };
     draw(shape, adds, ctx);
     ctx.session.end_gesture();
@@ -153,14 +154,14 @@ fn close(ctx: &mut Ctx<'_>) {
 
 /// Removes the mask of the selected layer, or the chosen keep-out region.
 fn clear(ctx: &mut Ctx<'_>) {
-    match ctx.tools.region.target {
+    match ctx.tools.settings::<RegionTool>().target {
         RegionTarget::Mask => match layer_to_draw_on(ctx.session).map(|layer| layer.id) {
-            Ok(id) => ctx.send(Command::Layer(LayerCommand::Mask(id, None))),
+            Ok(id) => ctx.send(Command::from(LayerCommand::Mask(id, None))),
             Err(problem) => ctx.session.report(problem),
         },
         RegionTarget::KeepOut => {
             let count = ctx.session.document().settings().paths.keep_out.len();
-            match ctx.tools.region.keep_out.take().filter(|&number| number < count) {
+            match ctx.tools.settings_mut::<RegionTool>().keep_out.take().filter(|&number| number < count) {
                 Some(number) => edit_keep_out(ctx, |regions| _ = regions.remove(number)),
                 None => ctx.session.tell("Choose the keep-out region that is to go first.".into()),
             }

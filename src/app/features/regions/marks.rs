@@ -4,6 +4,7 @@ use eframe::egui::{Color32, Pos2, Rect as ScreenRect, Shape, Stroke};
 use glam::DVec2;
 
 use super::RegionTarget;
+use crate::app::features::regions::RegionTool;
 use crate::app::kit::{FrameState, OverMesh, hatching, marks};
 use meshbrush_core::document::DrawnPart;
 use meshbrush_core::layers::Mask;
@@ -17,7 +18,7 @@ const RIM: Stroke = Stroke { width: 3.0, color: Color32::from_rgba_premultiplied
 /// Hatches what the mask of the selected layer leaves out, and draws areas that have not reached the document
 /// and the open polygon. The outlines of masks, regions and shapes are drawn with any tool.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
-    let tool = &state.tools.region;
+    let tool = state.tools.settings::<RegionTool>();
     let at = over.screen_from_world;
     if tool.target == RegionTarget::Mask
         && let Some(mask) = state.session.document().active_layer().and_then(|layer| layer.mask.as_ref())

@@ -11,9 +11,9 @@ mod options;
 mod tests;
 mod tool;
 
-pub use command::RegionCommand;
+pub use command::{RegionCommand, RegionShape, RegionTarget};
 use options::REGION_OPTIONS;
-pub use tool::{REGION, RegionShape, RegionTarget, RegionTool};
+pub use tool::{REGION, RegionTool};
 
 /// What is drawn is in the document, and the open polygon in [`RegionTool`].
 #[derive(Default)]

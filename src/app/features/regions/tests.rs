@@ -5,10 +5,10 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{
-    Command, EditCommand, FileCommand, InspectCommand, LayerCommand, RegionCommand, RegionTarget,
-};
-use crate::app::features::regions::{REGION, RegionShape};
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
+use crate::app::features::inspection::InspectCommand;
+use crate::app::features::regions::RegionTool;
+use crate::app::features::regions::{REGION, RegionCommand, RegionShape, RegionTarget};
 use crate::app::kit::Tab;
 use crate::app::tests::{
     TALL, Window, active, click, click_button, entries, fingerprint, key, level_at, move_to, notice,
@@ -24,12 +24,12 @@ const SQUARE: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.5, 0.2), dvec2(0.5, 0.5), d
 /// Returns a new document in which the base layer, with a fine diameter, is selected.
 fn with_fine_base() -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     let id = settings(&window).layers[0].id;
-    send(&mut window, Command::Layer(LayerCommand::Select(id)));
+    send(&mut window, Command::from(LayerCommand::Select(id)));
     let kind = Box::new(LayerKind::constant(0.02));
-    send(&mut window, Command::Layer(LayerCommand::SetKind(id, kind)));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(LayerCommand::SetKind(id, kind)));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     settle(&mut window);
     window
 }
@@ -106,19 +106,19 @@ fn a_mask_is_drawn_as_a_polygon_painted_and_cut_and_each_is_one_entry() {
 #[test]
 fn cutting_begins_with_the_whole_domain_and_clearing_removes_the_mask() {
     let mut window = with_fine_base();
-    send(&mut window, Command::Region(RegionCommand::Target(RegionTarget::Mask)));
-    send(&mut window, Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+    send(&mut window, Command::from(RegionCommand::Target(RegionTarget::Mask)));
+    send(&mut window, Command::from(RegionCommand::Shape(RegionShape::Polygon)));
     choose(&mut window, "Cut");
     draw_polygon(&mut window, &SQUARE);
     assert!((mask_area(&window) - 0.91).abs() < 2e-3, "{}", mask_area(&window));
     let before = entries(&window);
     let everything = CutShape::Ring(corners(&Rect::around(DVec2::splat(0.5), 2.0)));
-    send(&mut window, Command::Region(RegionCommand::Draw(DrawnShape::Area(everything), false)));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(RegionCommand::Draw(DrawnShape::Area(everything), false)));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     settle(&mut window);
     assert!(notice(&window).contains("Nothing would be left of the mask"), "{}", notice(&window));
     assert_eq!(entries(&window), before);
-    send(&mut window, Command::Region(RegionCommand::Clear));
+    send(&mut window, Command::from(RegionCommand::Clear));
     assert_eq!((active(&window).mask.clone(), entries(&window)), (None, before + 1));
 }
 
@@ -132,11 +132,11 @@ fn escape_takes_the_polygon_and_the_stroke_back() {
         click(&mut window, *corner, Modifiers::NONE);
     }
     key(&mut window, Modifiers::NONE, Key::Backspace);
-    assert_eq!(window.state().tools().region.corners.len(), 2);
+    assert_eq!(window.state().tools().settings::<RegionTool>().corners.len(), 2);
     key(&mut window, Modifiers::NONE, Key::Enter);
     assert!(notice(&window).contains("three corners"), "{}", notice(&window));
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().tools().region.corners.is_empty());
+    assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
     choose(&mut window, "Brush");
     press(&mut window, SQUARE[0], Modifiers::NONE);
     move_to(&mut window, SQUARE[2]);
@@ -150,8 +150,8 @@ fn escape_takes_the_polygon_and_the_stroke_back() {
 fn a_locked_layer_keeps_its_mask() {
     let mut window = with_fine_base();
     let id = active(&window).id;
-    send(&mut window, Command::Layer(LayerCommand::Lock(id, true)));
-    send(&mut window, Command::Region(RegionCommand::Target(RegionTarget::Mask)));
+    send(&mut window, Command::from(LayerCommand::Lock(id, true)));
+    send(&mut window, Command::from(RegionCommand::Target(RegionTarget::Mask)));
     stroke(&mut window, SQUARE[0], SQUARE[2]);
     assert!(notice(&window).contains("is locked"), "{}", notice(&window));
     assert_eq!(active(&window).mask, None);
@@ -170,17 +170,17 @@ fn keep_out_regions_are_drawn_and_paths_are_found_around_them() {
     };
     assert_eq!(regions(&window).len(), 1);
     assert!((regions(&window)[0].1 - 0.09).abs() < 2e-3);
-    send(&mut window, Command::Region(RegionCommand::Rename(0, "Shoals".into())));
+    send(&mut window, Command::from(RegionCommand::Rename(0, "Shoals".into())));
     assert_eq!(regions(&window)[0].0, "Shoals");
     // The next polygon joins the region, and with *new region* it is another one.
     let apart = SQUARE.map(|corner| corner + 0.4);
     draw_polygon(&mut window, &apart);
     assert_eq!(regions(&window).len(), 1);
-    send(&mut window, Command::Region(RegionCommand::KeepOut(None)));
+    send(&mut window, Command::from(RegionCommand::KeepOut(None)));
     draw_polygon(&mut window, &SQUARE.map(|corner| 0.4 * corner));
     assert_eq!(regions(&window)[1].0, "drawn region 1");
     key(&mut window, Modifiers::NONE, Key::X);
-    send(&mut window, Command::Region(RegionCommand::KeepOut(None)));
+    send(&mut window, Command::from(RegionCommand::KeepOut(None)));
     draw_polygon(&mut window, &SQUARE);
     assert!((regions(&window)[0].1 - 0.09).abs() < 2e-3, "what is cut goes from the region where it begins");
     draw_polygon(&mut window, &apart);
@@ -193,7 +193,7 @@ fn keep_out_regions_are_drawn_and_paths_are_found_around_them() {
 fn shapes_are_drawn_with_a_layer_of_their_own() {
     let mut window = with_fine_base();
     let before = entries(&window);
-    send(&mut window, Command::Region(RegionCommand::Target(RegionTarget::Shapes)));
+    send(&mut window, Command::from(RegionCommand::Target(RegionTarget::Shapes)));
     choose(&mut window, "Line");
     for corner in &SQUARE[..2] {
         click(&mut window, *corner, Modifiers::NONE);
@@ -219,8 +219,8 @@ fn shapes_are_drawn_with_a_layer_of_their_own() {
     assert_eq!(shapes(active(&window)).map(|list| list.lines.len()), Some(2), "the line is cut in two");
     assert_eq!(entries(&window), before + 4);
     // A layer without shapes is not touched.
-    send(&mut window, Command::Layer(LayerCommand::Select(LayerId(0))));
-    send(&mut window, Command::Region(RegionCommand::Cuts(true)));
+    send(&mut window, Command::from(LayerCommand::Select(LayerId(0))));
+    send(&mut window, Command::from(RegionCommand::Cuts(true)));
     stroke(&mut window, SQUARE[0], SQUARE[2]);
     assert!(notice(&window).contains("Nothing can be cut"), "{}", notice(&window));
     assert_eq!(entries(&window), before + 4);
@@ -235,22 +235,22 @@ fn a_polygon_that_was_begun_is_dropped_with_another_target_or_shape() {
         RegionCommand::Shape(RegionShape::Brush),
         RegionCommand::Shape(RegionShape::Polygon),
     ] {
-        send(&mut window, Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+        send(&mut window, Command::from(RegionCommand::Shape(RegionShape::Polygon)));
         SQUARE[..2].iter().for_each(|&corner| click(&mut window, corner, Modifiers::NONE));
-        assert_eq!(window.state().tools().region.corners.len(), 2, "{command:?}");
-        send(&mut window, Command::Region(command));
-        assert!(window.state().tools().region.corners.is_empty());
+        assert_eq!(window.state().tools().settings::<RegionTool>().corners.len(), 2, "{command:?}");
+        send(&mut window, Command::from(command));
+        assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
     }
 }
 
 #[test]
 fn escape_drops_a_polygon_before_the_query() {
     let mut window = with_fine_base();
-    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.7, 0.7))));
-    send(&mut window, Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+    send(&mut window, Command::from(InspectCommand::Query(dvec2(0.7, 0.7))));
+    send(&mut window, Command::from(RegionCommand::Shape(RegionShape::Polygon)));
     click(&mut window, SQUARE[0], Modifiers::NONE);
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().tools().region.corners.is_empty());
+    assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
     assert!(window.state().session().queried().is_some(), "one thing at a time");
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(window.state().session().queried().is_none());

@@ -4,31 +4,32 @@
 use eframe::egui::Key;
 use glam::DVec2;
 
-use super::{REGION_OPTIONS, RegionCommand, marks};
+use super::{REGION_OPTIONS, RegionCommand, RegionShape, RegionTarget, marks};
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{
     DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
 };
-use crate::app::tools::Tools;
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
+use crate::app::tools::{ToolSettings, Tools, first_settings};
 use meshbrush_core::document::DrawnShape;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Draws regions by hand.
 pub static REGION: ToolSpec = ToolSpec {
     place: 5,
     options: &REGION_OPTIONS,
-    hint: |state| match state.tools.region.shape() {
+    hint: |state| match state.tools.settings::<RegionTool>().shape() {
         RegionShape::Brush => BRUSH_HINT,
         RegionShape::Polygon => POLYGON_HINT,
         RegionShape::Line => LINE_HINT,
         RegionShape::Point => POINT_HINT,
     },
-    has_ring: |tools| tools.region.shape() == RegionShape::Brush,
+    has_ring: |tools| tools.settings::<RegionTool>().shape() == RegionShape::Brush,
     paint: marks::paint,
     press,
     press_secondary,
     menu,
+    settings: Some(first_settings::<RegionTool>),
     ..ToolSpec::new("Region", Key::M, Icon::REGION)
 };
 
@@ -61,32 +62,6 @@ const LINE_HINT: &[Hint] = &[
 ];
 const POINT_HINT: &[Hint] = &[Text("Click to set points"), KeyOf("undo"), Text("undo")];
 
-/// What the region tool draws on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RegionTarget {
-    /// The mask of the selected layer.
-    #[default]
-    Mask,
-    /// A keep-out region of paths.
-    KeepOut,
-    /// The shapes to which the selected layer measures the distance.
-    Shapes,
-}
-
-/// What the region tool draws with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RegionShape {
-    /// The brush ring.
-    #[default]
-    Brush,
-    /// A polygon, corner by corner.
-    Polygon,
-    /// A polyline, among shapes only.
-    Line,
-    /// Points, among shapes only.
-    Point,
-}
-
 /// Settings of the region tool, and its open polygon.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RegionTool {
@@ -102,6 +77,12 @@ pub struct RegionTool {
     pub corners: Vec<DVec2>,
 }
 
+impl ToolSettings for RegionTool {
+    fn differs_in_choice(&self, other: &Self) -> bool {
+        (self.target, self.shape(), self.cuts) != (other.target, other.shape(), other.cuts)
+    }
+}
+
 impl RegionTool {
     /// What it draws with: lines and points only among shapes, and what cuts is an area.
     pub fn shape(&self) -> RegionShape {
@@ -114,19 +95,19 @@ impl RegionTool {
 }
 
 static COMMANDS: DrawingCommands = DrawingCommands {
-    draw: |area, adds| Command::Region(RegionCommand::Draw(DrawnShape::Area(area), adds)),
-    drawn: |command| match command {
-        Command::Region(RegionCommand::Draw(DrawnShape::Area(area), _)) => Some(area),
+    draw: |area, adds| Command::from(RegionCommand::Draw(DrawnShape::Area(area), adds)),
+    drawn: |command| match command.get_mut() {
+        Some(RegionCommand::Draw(DrawnShape::Area(area), _)) => Some(area),
         _ => None,
     },
-    add_corner: |corner| Command::Region(RegionCommand::AddCorner(corner)),
-    move_corner: |index, corner| Command::Region(RegionCommand::MoveCorner(index, corner)),
-    close: || Command::Region(RegionCommand::Close),
+    add_corner: |corner| Command::from(RegionCommand::AddCorner(corner)),
+    move_corner: |index, corner| Command::from(RegionCommand::MoveCorner(index, corner)),
+    close: || Command::from(RegionCommand::Close),
 };
 
 /// With the brush, Alt swaps adding and cutting.
 fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
-    let tool = &pointer.tools.region;
+    let tool = pointer.tools.settings::<RegionTool>();
     match tool.shape() {
         RegionShape::Brush => {
             let adds = tool.cuts == press.modifiers.alt;
@@ -137,8 +118,8 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
         }
         RegionShape::Point => {
             let point = DrawnShape::Point(pointer.world(press.at));
-            commands.push(Command::Region(RegionCommand::Draw(point, true)));
-            commands.push(Command::Edit(EditCommand::EndGesture));
+            commands.push(Command::from(RegionCommand::Draw(point, true)));
+            commands.push(Command::from(EditCommand::EndGesture));
             None
         }
     }
@@ -146,18 +127,18 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
 
 /// The secondary button closes the polygon, or ends the line.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    COMMANDS.close_if_begun(&tools.region.corners, commands)
+    COMMANDS.close_if_begun(&tools.settings::<RegionTool>().corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
-    let tool = &state.tools.region;
+    let tool = state.tools.settings::<RegionTool>();
     let swap = if tool.cuts { "Add to the region" } else { "Cut from the region" };
-    let mut entries = vec![(swap, Command::Region(RegionCommand::Cuts(!tool.cuts)))];
+    let mut entries = vec![(swap, Command::from(RegionCommand::Cuts(!tool.cuts)))];
     let begin = match tool.shape() {
         RegionShape::Polygon => "Begin a polygon here",
         RegionShape::Line => "Begin a line here",
         RegionShape::Brush | RegionShape::Point => return entries,
     };
-    entries.push((begin, Command::Region(RegionCommand::AddCorner(point))));
+    entries.push((begin, Command::from(RegionCommand::AddCorner(point))));
     entries
 }

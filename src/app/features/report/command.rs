@@ -1,5 +1,6 @@
 //! Commands about the figures of the report.
 
+use crate::app::command::CommandSet;
 use meshbrush_study::report::ReportFigure;
 
 /// One thing to do with the figures of the report.
@@ -13,4 +14,10 @@ pub enum FigureCommand {
     Close,
     /// Copies the figure with its numbers.
     Copy(String),
+}
+
+impl CommandSet for FigureCommand {
+    fn closes_document(&self) -> bool {
+        matches!(self, Self::Open(_))
+    }
 }

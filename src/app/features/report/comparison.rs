@@ -1,18 +1,19 @@
 //! The numbers of a figure of the report beside ours.
 
-use crate::app::features::stepping::Steps;
+use crate::app::features::plots::Plots;
+use crate::app::features::stepping::{Stepping, Steps};
 use crate::app::kit::FrameState;
-use crate::app::widgets::format;
 use meshbrush_study::report::{Comparison, Experiment, ReportFigure};
+use meshbrush_ui::widgets::format;
 
 /// Returns the numbers of the report beside those on the screen.
 pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparison> {
     if figure.is_step() {
-        let player = state.features.stepping.steps().and_then(Steps::player);
+        let player = state.feature::<Stepping>().steps().and_then(Steps::player);
         return player.map_or_else(Vec::new, |player| figure.compare_step(player));
     }
     if figure.is_about_time() {
-        return of_experiment(figure, state.features.plots.experiment());
+        return of_experiment(figure, state.feature::<Plots>().experiment());
     }
     figure.compare_mesh(state.session.mesh(), state.session.queried())
 }

@@ -8,7 +8,7 @@ use meshbrush_study::report::ReportFigure;
 /// Returns an entry for each figure.
 pub fn entries(_: &FrameState<'_>) -> Vec<CatalogItem> {
     let items = ReportFigure::ALL.into_iter().enumerate().map(|(number, figure)| {
-        let open = Command::Figure(FigureCommand::Open(figure));
+        let open = Command::from(FigureCommand::Open(figure));
         let item = CatalogItem::new(Menu::Method, format!("The report, {}", figure.name()), open);
         if number == 0 { item.group() } else { item }
     });

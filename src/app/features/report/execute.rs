@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use super::{FIGURE, FigureCommand, Report, entries};
-use crate::app::command::{Command, FileCommand, Opened, PlotKind, PlotsCommand, ShellCommand, StepCommand};
-use crate::app::kit::{Ctx, Feature, Row, Tab, all_tools};
+use crate::app::command::{Command, FileCommand, Opened, ShellCommand};
+use crate::app::features::plots::{PlotKind, PlotsCommand};
+use crate::app::features::stepping::StepCommand;
+use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_study::report::ReportFigure;
 
 impl Feature for Report {
@@ -30,9 +32,9 @@ impl Feature for Report {
 /// Opens the document of a figure, and then shows the figure.
 fn open(figure: ReportFigure, ctx: &mut Ctx<'_>) {
     let opened = Opened { document: Arc::new(figure.document()), home: None };
-    ctx.send(Command::Steps(StepCommand::Leave));
-    ctx.send(Command::File(FileCommand::Show(opened)));
-    ctx.send(Command::Figure(FigureCommand::Show(figure)));
+    ctx.send(Command::from(StepCommand::Leave));
+    ctx.send(Command::from(FileCommand::Show(opened)));
+    ctx.send(Command::from(FigureCommand::Show(figure)));
 }
 
 impl Report {
@@ -42,20 +44,20 @@ impl Report {
         ctx.view.panels = true;
         ctx.view.revealed_panel = Some(FIGURE.name);
         if figure.is_step() {
-            ctx.send(Command::Steps(StepCommand::Begin(Some(figure))));
+            ctx.send(Command::from(StepCommand::Begin(Some(figure))));
         }
         if let Some(point) = figure.query() {
-            let tool = all_tools(ctx.rows).into_iter().find(|tool| tool.queries);
-            ctx.commands.extend(tool.map(|tool| Command::Shell(ShellCommand::Use(tool))));
+            let tool = ctx.tools.all().iter().find(|tool| tool.queries).copied();
+            ctx.commands.extend(tool.map(|tool| Command::from(ShellCommand::Use(tool))));
             ctx.view.aids.walk = true;
             ctx.session.query(Some(point));
         }
         if figure.is_about_time() {
-            ctx.send(Command::Plots(PlotsCommand::Choose(PlotKind::Figure5)));
+            ctx.send(Command::from(PlotsCommand::Choose(PlotKind::Figure5)));
         }
         // Its entry says that the meshes are made; Figure 5 waits for its button.
         if figure == ReportFigure::Experiment {
-            ctx.send(Command::Plots(PlotsCommand::Measure));
+            ctx.send(Command::from(PlotsCommand::Measure));
         }
     }
 }

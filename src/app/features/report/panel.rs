@@ -4,25 +4,26 @@ use eframe::egui::{Align, Grid, Layout, RichText, Ui};
 
 use super::{FigureCommand, as_text, comparisons};
 use crate::app::command::Command;
-use crate::app::features::plots::{self, PlotKind};
+use crate::app::features::plots::{self, PlotKind, Plots};
+use crate::app::features::report::Report;
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, plot_view, tips};
 use meshbrush_study::report::{ABOUT_EXPONENT, Comparison, ReportFigure};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, plot_view, tips};
 
 /// The figure that is shown.
 pub static FIGURE: Panel = Panel { name: "figure", tab: Tab::Method, place: 0, show: section };
 
 /// Draws the figure that is shown, also beside its steps.
 pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(figure) = state.features.report.shown else { return };
+    let Some(figure) = state.feature::<Report>().shown else { return };
     ui.add_space(10.0);
     title(ui, figure, commands);
     ui.label(RichText::new(figure.text()).font(font::body()).color(tokens(ui).text));
     ui.add_space(6.0);
     if figure.is_about_time() {
-        plots::measuring(ui, &state.features.plots, commands);
-        let experiment = state.features.plots.experiment();
+        plots::measuring(ui, state.feature::<Plots>(), commands);
+        let experiment = state.feature::<Plots>().experiment();
         if figure == ReportFigure::Times && !experiment.meshes.is_empty() {
             plot_view(ui, PlotKind::Figure5.name(), &experiment.figure_5(), plots::HEIGHT);
         }
@@ -38,7 +39,7 @@ pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     } else {
         table(ui, &rows);
         ui.add_space(4.0);
-        let copy = Command::Figure(FigureCommand::Copy(as_text(figure, &rows)));
+        let copy = Command::from(FigureCommand::Copy(as_text(figure, &rows)));
         button_rows(ui, [vec![("Copy the comparison", true, copy)]], commands);
     }
     ui.add_space(6.0);
@@ -51,7 +52,7 @@ fn title(ui: &mut Ui, figure: ReportFigure, commands: &mut Vec<Command>) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let close = ui.add(ActionButton::new("Close").named("Close the figure"));
             if tips::explain(ui, close, tips::sentence("Close the figure")).clicked() {
-                commands.push(Command::Figure(FigureCommand::Close));
+                commands.push(Command::from(FigureCommand::Close));
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 ui.add(eframe::egui::Label::new(title.color(tokens(ui).value)).wrap());

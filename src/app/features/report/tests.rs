@@ -5,6 +5,7 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::app::command::Command;
+use crate::app::features::plots::Plots;
 use crate::app::features::plots::PlotsCommand;
 use crate::app::features::report::FigureCommand;
 use crate::app::tests::{
@@ -68,11 +69,11 @@ fn figures_3_and_4_stand_at_their_steps() {
 #[test]
 fn figure_5_waits_for_its_button_and_shows_the_gradient() {
     let mut window = opened(ReportFigure::Times);
-    assert!(!window.state().features().plots.is_measuring());
-    send(&mut window, Command::Plots(PlotsCommand::SetUp { last_level: 6, runs: 1 }));
+    assert!(!window.state().features().get::<Plots>().is_measuring());
+    send(&mut window, Command::from(PlotsCommand::SetUp { last_level: 6, runs: 1 }));
     window.get_by_role_and_label(Role::Button, "Measure").click();
     window.run();
-    wait_until(&mut window, |window| !window.state().features().plots.is_measuring());
+    wait_until(&mut window, |window| !window.state().features().get::<Plots>().is_measuring());
     assert!(window.query_by_role_and_label(Role::Image, "Figure 5 of the report").is_some());
     assert!(has(&window, "1.01") && has(&window, "Gradient"));
 }
@@ -92,7 +93,7 @@ fn figure_6_shows_the_walk_to_a_queried_point() {
 #[test]
 fn the_experiment_is_made_beside_the_triangles_of_the_report() {
     let mut window = opened(ReportFigure::Experiment);
-    wait_until(&mut window, |window| window.state().features().plots.experiment().meshes.len() >= 5);
+    wait_until(&mut window, |window| window.state().features().get::<Plots>().experiment().meshes.len() >= 5);
     window.get_by_role_and_label(Role::Button, "Cancel measuring").click();
     window.run();
     assert!(has(&window, "Level 5") && has(&window, "9,560"));
@@ -120,7 +121,7 @@ fn a_figure_is_closed_or_ends_with_its_document() {
 fn edits_are_asked_about_before_a_figure_opens() {
     let mut window = window_of(TALL);
     paint(&mut window, FREE.x);
-    send(&mut window, Command::Figure(FigureCommand::Open(ReportFigure::Mesh)));
+    send(&mut window, Command::from(FigureCommand::Open(ReportFigure::Mesh)));
     assert_ne!(settings(&window).name, ReportFigure::Mesh.name());
     assert!(window.query_by_role_and_label(Role::Button, "Do not save").is_some());
     assert!(canvas(&window).width() > 0.0);

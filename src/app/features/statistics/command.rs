@@ -1,8 +1,12 @@
 //! Commands about the figures of the mesh.
 
+use crate::app::command::CommandSet;
+
 /// One thing to do with the figures of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatisticsCommand {
     /// Computes the figures of the mesh.
     Measure,
 }
+
+impl CommandSet for StatisticsCommand {}

@@ -5,8 +5,8 @@ use eframe::egui::{Color32, Ui};
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::view::deepest_level;
-use crate::app::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 use meshbrush_render::colormap::LevelColors;
+use meshbrush_ui::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 
 /// Height of the legend in points, for any number of levels: the sections below must not move while the
 /// pointer drags the coarse spacing or the smallest diameter.
@@ -35,16 +35,16 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let legend = LevelLegend::new(&rows).unit(state.unit()).lit(lit).hidden(hidden);
         let answer = legend.max_height(height).show(ui);
         if hidden != 0 && ui.add(ActionButton::new("Show all levels")).clicked() {
-            commands.push(Command::View(ViewCommand::ShowAllLevels));
+            commands.push(Command::from(ViewCommand::ShowAllLevels));
         }
         answer
     });
     let answer = section.unwrap_or_default();
     if answer.hovered != state.view.lone_level {
-        commands.push(Command::View(ViewCommand::ShowLevel(answer.hovered)));
+        commands.push(Command::from(ViewCommand::ShowLevel(answer.hovered)));
     }
-    commands.extend(answer.toggled.map(|level| Command::View(ViewCommand::ToggleLevel(level))));
-    commands.extend(answer.isolated.map(|level| Command::View(ViewCommand::IsolateLevel(level))));
+    commands.extend(answer.toggled.map(|level| Command::from(ViewCommand::ToggleLevel(level))));
+    commands.extend(answer.isolated.map(|level| Command::from(ViewCommand::IsolateLevel(level))));
 }
 
 fn row(state: &FrameState<'_>, level: usize, counts: &[usize], colors: &LevelColors) -> LevelRow {

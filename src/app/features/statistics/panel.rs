@@ -4,11 +4,12 @@ use eframe::egui::Ui;
 use glam::DVec2;
 
 use super::Measured;
-use crate::app::command::{Command, ShellCommand, StatisticsCommand, ViewCommand};
+use crate::app::command::{Command, ShellCommand, ViewCommand};
+use crate::app::features::statistics::{Statistics, StatisticsCommand};
 use crate::app::kit::{FrameState, Panel, Tab};
-use crate::app::theme::metrics;
-use crate::app::widgets::{Section, ValueRow, format, value_row};
 use meshbrush_mesh::mesh::MeshStatistics;
+use meshbrush_ui::theme::metrics;
+use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
 
 /// Rows of the figures of a mesh in one part.
 const USUAL_ROWS: f32 = 9.0;
@@ -20,11 +21,11 @@ pub static STATISTICS: Panel = Panel { name: "statistics", tab: Tab::Mesh, place
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Statistics").closed().show(ui, |ui| {
-        let figures = state.features.statistics.figures(state.session);
+        let figures = state.feature::<Statistics>().figures(state.session);
         let is_current = figures.is_some_and(|(_, is_current)| is_current);
-        if state.features.statistics.is_due(state.session) {
+        if state.feature::<Statistics>().is_due(state.session) {
             // They are computed only while the section is open.
-            commands.push(Command::Statistics(StatisticsCommand::Measure));
+            commands.push(Command::from(StatisticsCommand::Measure));
         }
         let Some((measured, _)) = figures else {
             // The room that the figures will take: opening the section brings all of it into view.
@@ -125,7 +126,7 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
 
 fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>) {
     if ValueRow::new("Fingerprint", &measured.fingerprint).link().show(ui).clicked() {
-        commands.push(Command::Shell(ShellCommand::Copy(measured.fingerprint.clone())));
+        commands.push(Command::from(ShellCommand::Copy(measured.fingerprint.clone())));
     }
 }
 
@@ -140,7 +141,7 @@ struct PlaceRow<'a> {
 impl PlaceRow<'_> {
     fn show(self, ui: &mut Ui, commands: &mut Vec<Command>) {
         if ValueRow::new(self.label, self.value).help(self.help).link().show(ui).clicked() {
-            commands.push(Command::View(ViewCommand::LookAt(self.place)));
+            commands.push(Command::from(ViewCommand::LookAt(self.place)));
         }
     }
 }

@@ -5,8 +5,8 @@ use eframe::egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, 
 use super::steps::SPEEDS;
 use super::{StepCommand, Steps};
 use crate::app::command::Command;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Icon, ToolButton, format, segmented, tips};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{Icon, ToolButton, format, segmented, tips};
 
 /// Height of the bar, in points.
 pub const HEIGHT: f32 = 52.0;
@@ -17,7 +17,7 @@ const SPEED: f32 = 220.0;
 /// First, back, play, forward, last; which step of how many; a slider; the speed.
 pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
     let (position, count) = steps.player().map_or((0, 0), |player| (player.position(), player.len()));
-    let mut send = |command| commands.push(Command::Steps(command));
+    let mut send = |command| commands.push(Command::from(command));
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let play = if steps.is_playing() {

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use eframe::egui::{Align2, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::theme::{font, tokens};
 use meshbrush_study::steps::Algorithm;
+use meshbrush_ui::theme::{font, tokens};
 
 /// Height of a line, in points.
 const LINE: f32 = 16.0;

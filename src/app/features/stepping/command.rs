@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::app::command::CommandSet;
 use meshbrush_study::report::ReportFigure;
 
 /// One thing to do in this mode.
@@ -31,3 +32,5 @@ pub enum StepCommand {
     /// Writes the chosen steps, each to a file with its number.
     Export(PathBuf),
 }
+
+impl CommandSet for StepCommand {}

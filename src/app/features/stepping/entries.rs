@@ -5,6 +5,7 @@ use eframe::egui::{Key, Modifiers};
 use super::StepCommand;
 use super::files::EXPORT_STEPS;
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::stepping::Stepping;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// The situation of keys that work while steps are shown.
@@ -12,9 +13,9 @@ const STEPPING: &str = "while steps are shown";
 
 /// How to begin; and once begun, how to move.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::Steps(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::from(command));
     let title = "Step through the refinement";
-    let Some(steps) = state.features.stepping.steps() else {
+    let Some(steps) = state.feature::<Stepping>().steps() else {
         return vec![item(title, StepCommand::Begin(None)).key(Key::F10).group()];
     };
     let (position, count) = steps.player().map_or((0, 0), |player| (player.position(), player.len()));
@@ -48,7 +49,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(
             Menu::Method,
             "Export steps as SVG…",
-            Command::File(FileCommand::Ask(&EXPORT_STEPS)),
+            Command::from(FileCommand::Ask(&EXPORT_STEPS)),
         )
         .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
         .enabled(count > 0),

@@ -83,7 +83,7 @@ fn show_closely(corners: [DVec2; 3], middle: DVec2, ctx: &mut Ctx<'_>) {
     let reach = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
     if reach < SMALLEST_REACH_PX * ctx.view.world_per_px() {
         let area = Rect::around(middle, REACHES_AROUND * reach);
-        ctx.send(Command::View(ViewCommand::ShowArea(area)));
+        ctx.send(Command::from(ViewCommand::ShowArea(area)));
     }
 }
 
@@ -91,7 +91,7 @@ fn show_closely(corners: [DVec2; 3], middle: DVec2, ctx: &mut Ctx<'_>) {
 fn export_as(steps: &Steps, path: PathBuf, ctx: &mut Ctx<'_>) {
     match steps.files(&path) {
         Ok(files) => {
-            let export = Command::Steps(StepCommand::Export(path));
+            let export = Command::from(StepCommand::Export(path));
             ctx.commands.extend(ctx.project.ask_to_replace(files, export));
         }
         Err(problem) => ctx.fail(problem),

@@ -4,14 +4,14 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::Steps;
+use crate::app::background::listed;
 use crate::app::background::{Aim, Background, Outcome, not_exported};
-use crate::app::files::listed;
 use crate::app::session::Session;
 use crate::app::view::View;
-use crate::app::widgets::format;
 use meshbrush_io::io;
 use meshbrush_render::colormap::Ground;
 use meshbrush_study::steps::svg as steps;
+use meshbrush_ui::widgets::format;
 
 /// Most steps that are exported at once.
 pub const MOST_FILES: usize = 500;

@@ -12,5 +12,5 @@ pub static EXPORT_STEPS: FileKind = FileKind {
     contents: "Drawings",
     folder: "exports",
     suffix: " step",
-    ..FileKind::new(|path| Command::Steps(StepCommand::ExportAs(path)))
+    ..FileKind::new(|path| Command::from(StepCommand::ExportAs(path)))
 };

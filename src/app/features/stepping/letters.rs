@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use eframe::egui::{Color32, Galley, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
 
-use crate::app::kit::marks::NUMBER_DISC;
-use crate::app::theme::font;
 use meshbrush_study::steps::{LabelSize, placed};
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::font;
 
 /// Free space around the letters on their ground, in points.
 const MARGIN: Vec2 = vec2(4.0, 1.0);

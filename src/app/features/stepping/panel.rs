@@ -7,18 +7,19 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 use super::steps::MOST_TRIANGLES;
 use super::{StepCommand, code, panel_export, rows};
 use crate::app::command::Command;
+use crate::app::features::stepping::Stepping;
 use crate::app::kit::{FrameState, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 use meshbrush_mesh::mesh::bisection_edge_length;
 use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer, StepStage};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 
 /// Width of the panel, in points: a line of pseudo-code fits.
 pub const WIDTH: f32 = 488.0;
 
 /// Draws what the step does, and the lines that it runs.
 pub fn text_and_code(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(steps) = state.features.stepping.steps() else { return };
+    let Some(steps) = state.feature::<Stepping>().steps() else { return };
     let Some(player) = steps.player() else {
         ui.label("The steps are being recorded…");
         return;
@@ -30,7 +31,7 @@ pub fn text_and_code(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Com
     }
     let mut only = steps.only_bisections;
     if toggle_row(ui, "Only bisections", &mut only).changed() {
-        commands.push(Command::Steps(StepCommand::OnlyBisections(only)));
+        commands.push(Command::from(StepCommand::OnlyBisections(only)));
     }
     if let Some(step) = player.step() {
         let (algorithm, lines) = step.lines();
@@ -42,7 +43,7 @@ pub fn text_and_code(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Com
 
 /// Draws the data of the step, the rows that it changes, and which steps to export.
 pub fn details(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(steps) = state.features.stepping.steps() else { return };
+    let Some(steps) = state.feature::<Stepping>().steps() else { return };
     let Some(player) = steps.player() else { return };
     if let Some(stage) = player.stage() {
         Section::new("Mesh").id("mesh of the stage").show(ui, |ui| stage_rows(ui, player, stage));
@@ -62,7 +63,7 @@ pub fn title(ui: &mut Ui, commands: &mut Vec<Command>) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let leave = ui.add(ActionButton::new("Leave").named("Leave the steps"));
             if tips::explain(ui, leave, tips::sentence("Leave the steps")).clicked() {
-                commands.push(Command::Steps(StepCommand::Leave));
+                commands.push(Command::from(StepCommand::Leave));
             }
         });
     });

@@ -7,7 +7,7 @@ use super::files::EXPORT_STEPS;
 use super::{StepCommand, Steps};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::remark;
-use crate::app::widgets::{ActionButton, NumberRow, Section, tips};
+use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, tips};
 
 const NAME: &str = "Export steps as SVG…";
 
@@ -21,7 +21,7 @@ pub fn section(ui: &mut Ui, steps: &Steps, count: usize, commands: &mut Vec<Comm
         let to = NumberRow::new("To step", &mut last).range(steps).integer().show(ui);
         if from.changed() || to.changed() {
             let command = StepCommand::ExportRange(first.max(0.0) as usize, last.max(0.0) as usize);
-            commands.push(Command::Steps(command));
+            commands.push(Command::from(command));
         }
         let files = range.count();
         ui.add_space(4.0);
@@ -29,7 +29,7 @@ pub fn section(ui: &mut Ui, steps: &Steps, count: usize, commands: &mut Vec<Comm
         let fits = (1..=MOST_FILES).contains(&files);
         let response = ui.add_enabled(fits, button);
         if tips::explain(ui, response, tips::sentence(NAME)).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&EXPORT_STEPS)));
+            commands.push(Command::from(FileCommand::Ask(&EXPORT_STEPS)));
         }
         let text = match files {
             1 => "One drawing will be written.".into(),

@@ -8,12 +8,14 @@ use glam::DVec2;
 
 use super::Steps;
 use super::letters::{Letter, PlacedLetters};
-use crate::app::kit::marks::{NUMBER_DISC, point_from_px};
+use crate::app::features::stepping::Stepping;
+use crate::app::kit::marks::point_from_px;
 use crate::app::kit::{FrameState, marks};
-use crate::app::theme::{font, tokens};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_render::colormap::{Ground, LevelColors};
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::{font, tokens};
 
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::{Marked, NamedPlace, StepPart, StepPlayer, StepTriangle};
@@ -53,7 +55,7 @@ fn color_of(part: StepPart) -> Color32 {
 /// Draws the mesh at the step that is shown, on the canvas, with the letters of the figure of the report that
 /// is shown beside it.
 pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>, figure: Option<ReportFigure>) {
-    let player = state.features.stepping.steps().and_then(Steps::player);
+    let player = state.feature::<Stepping>().steps().and_then(Steps::player);
     let (Some(player), Some(camera)) = (player, state.view.camera) else { return };
     let colors = state.view.level_colors(state.session.follower().settings());
     let marked = player.marked();

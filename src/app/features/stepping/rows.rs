@@ -3,9 +3,9 @@
 use eframe::egui::{Align2, Color32, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::kit::FrameState;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::format;
 use meshbrush_study::steps::{ReportRow, RowChange, StepPlayer};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::format;
 
 /// Height of a row, in points.
 const ROW: f32 = 17.0;

@@ -8,14 +8,15 @@ use glam::{DVec2, dvec2};
 use super::StepCommand;
 use super::export::MOST_FILES;
 use super::steps::MOST_TRIANGLES;
-use crate::app::command::{Command, FigureCommand, FileCommand, InspectCommand, ViewCommand};
+use crate::app::command::{Command, FileCommand, ViewCommand};
+use crate::app::features::inspection::InspectCommand;
 use crate::app::features::painting::BRUSH;
+use crate::app::features::report::FigureCommand;
 use crate::app::tests::pictures::drawn_window;
 use crate::app::tests::{
     CTRL_SHIFT, FREE, Window, canvas, click, entries, fingerprint, key, notice, on_screen, painted_shapes,
     painted_texts, send, set, settings, triangles, wait_until, window, window_of,
 };
-use crate::app::theme::tokens_of;
 use crate::app::tools::PAN;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::outline::DerivationAction;
@@ -23,6 +24,7 @@ use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{NodeId, fingerprint_of};
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::{Algorithm, StepAction, StepPlayer};
+use meshbrush_ui::theme::tokens_of;
 
 fn player(window: &Window) -> &StepPlayer {
     window.state().stepping().expect("the mode is on").player().expect("the steps are recorded")
@@ -82,7 +84,7 @@ fn arrows_go_from_step_to_step_and_the_panel_says_what_happens() {
         let step = *shown.step().unwrap();
         let count = shown.len();
         assert!(window.query_by_label(&step.sentence()).is_some());
-        let of = crate::app::widgets::format::count(count as u64);
+        let of = meshbrush_ui::widgets::format::count(count as u64);
         assert!(window.query_by_label(&format!("Step {position} of {of}")).is_some());
         let (algorithm, lines) = step.lines();
         let line = lines.start;
@@ -109,7 +111,7 @@ fn it_goes_forwards_by_itself_and_stops_when_asked() {
     let mut window = window();
     coarse(&mut window);
     begin(&mut window);
-    send(&mut window, Command::Steps(StepCommand::Speed(10.0)));
+    send(&mut window, Command::from(StepCommand::Speed(10.0)));
     key(&mut window, Modifiers::NONE, Key::Space);
     assert!(window.state().stepping().unwrap().is_playing());
     window.run_steps(20);
@@ -126,9 +128,9 @@ fn the_view_comes_closer_only_where_the_queried_triangle_is_too_small_for_its_nu
     for (zoom, comes_closer) in [(0.3, true), (3.0, false)] {
         let mut window = window();
         coarse(&mut window);
-        send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.31, 0.44))));
-        send(&mut window, Command::View(ViewCommand::LookAt(dvec2(0.31, 0.44))));
-        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        send(&mut window, Command::from(InspectCommand::Query(dvec2(0.31, 0.44))));
+        send(&mut window, Command::from(ViewCommand::LookAt(dvec2(0.31, 0.44))));
+        send(&mut window, Command::from(ViewCommand::Zoom(zoom)));
         let id = window.state().session().queried_triangle().unwrap();
         let corners = window.state().session().mesh().view().world_corners(id);
         let middle = corners.iter().sum::<DVec2>() / 3.0;
@@ -162,7 +164,7 @@ fn the_bar_of_the_steps_has_room_for_all_its_controls() {
 fn the_steps_begin_where_the_queried_triangle_was_made() {
     let mut window = window();
     coarse(&mut window);
-    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.31, 0.44))));
+    send(&mut window, Command::from(InspectCommand::Query(dvec2(0.31, 0.44))));
     let id = window.state().session().queried_triangle().unwrap();
     let queried = window.state().session().mesh().corners(id);
     begin(&mut window);
@@ -205,7 +207,7 @@ fn only_bisections_are_stepped_through_on_request() {
 
 /// A coast of which all steps are recorded.
 fn coast(window: &mut Window) {
-    send(window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     let coarser = settings(window).boundary.with_diameter(0.4);
     set(window, Setting::Boundary(coarser));
     set(window, Setting::SmallestDiameter(0.5));
@@ -256,7 +258,7 @@ fn the_last_steps_on_a_coast_remove_triangles_and_move_nodes_until_the_mesh_is_t
     assert_eq!(player(&window).step().unwrap().action, StepAction::Finish);
     assert_eq!(player(&window).triangles().count(), player(&window).rows().len());
     // Stages change the mesh, as bisections do.
-    send(&mut window, Command::Steps(StepCommand::OnlyBisections(true)));
+    send(&mut window, Command::from(StepCommand::OnlyBisections(true)));
     key(&mut window, Modifiers::NONE, Key::ArrowRight);
     assert_eq!(player(&window).position() + stages, player(&window).len() + 1);
     key(&mut window, Modifiers::NONE, Key::ArrowLeft);
@@ -270,8 +272,8 @@ fn steps_on_a_coast_are_exported_like_the_others() {
     begin(&mut window);
     let last = player(&window).len();
     let folder = crate::app::tests::folder("app-steps", "coast");
-    send(&mut window, Command::Steps(StepCommand::ExportRange(last, last)));
-    send(&mut window, Command::Steps(StepCommand::Export(folder.join("coast.svg"))));
+    send(&mut window, Command::from(StepCommand::ExportRange(last, last)));
+    send(&mut window, Command::from(StepCommand::Export(folder.join("coast.svg"))));
     wait_until(&mut window, |window| notice(window).contains("1 steps written"));
     let file = std::fs::read_dir(&folder).unwrap().next().unwrap().unwrap().path();
     let drawing = std::fs::read_to_string(file).unwrap();
@@ -327,7 +329,7 @@ fn after_a_fast_drag_the_number_is_that_of_the_slider_in_the_same_frame_and_step
 #[test]
 fn text_and_code_need_no_scrolling_in_a_low_window() {
     let mut window = window_of(vec2(1280.0, 720.0));
-    send(&mut window, Command::Figure(FigureCommand::Open(ReportFigure::Neighbours)));
+    send(&mut window, Command::from(FigureCommand::Open(ReportFigure::Neighbours)));
     wait_until(&mut window, |window| window.state().stepping().is_some_and(|steps| steps.player().is_some()));
     let mut seen = algorithms_in_sight(&mut window);
     key(&mut window, Modifiers::NONE, Key::Escape);
@@ -350,7 +352,7 @@ fn algorithms_in_sight(window: &mut Window) -> Vec<Algorithm> {
             continue;
         }
         seen.push(algorithm);
-        send(window, Command::Steps(StepCommand::GoTo(position)));
+        send(window, Command::from(StepCommand::GoTo(position)));
         let last = format!("Current line {}: {}", lines.end - 1, algorithm.lines()[lines.end - 2]);
         let rect = window.get_by_label(&last).rect();
         assert!(rect.bottom() < below, "{algorithm:?}: {rect:?} and {below}");
@@ -422,7 +424,7 @@ fn the_step_is_seen_on_the_canvas() {
     let updates =
         |step: &meshbrush_study::steps::Step| matches!(step.action, StepAction::UpdateNeighbours(_));
     let deep = steps.iter().position(|step| updates(step) && step.level >= 3).unwrap();
-    send(&mut window, Command::Steps(StepCommand::GoTo(deep + 1)));
+    send(&mut window, Command::from(StepCommand::GoTo(deep + 1)));
     let numbers = painted_texts(window.output());
     let lattice = window.state().session().mesh().lattice();
     let middle = |number: u32| {
@@ -458,7 +460,7 @@ fn chosen_steps_are_written_as_numbered_drawings() {
     coarse(&mut window);
     begin(&mut window);
     let folder = crate::app::tests::folder("app-steps", "drawings");
-    send(&mut window, Command::Steps(StepCommand::ExportRange(3, 6)));
+    send(&mut window, Command::from(StepCommand::ExportRange(3, 6)));
     key(&mut window, CTRL_SHIFT, Key::E);
     let path = folder.join("lesson.svg");
     key(&mut window, Modifiers::COMMAND, Key::A);
@@ -472,15 +474,15 @@ fn chosen_steps_are_written_as_numbered_drawings() {
     assert_eq!(names, ["lesson-0003.svg", "lesson-0004.svg", "lesson-0005.svg", "lesson-0006.svg"]);
     let drawing = std::fs::read_to_string(folder.join(&names[1])).unwrap();
     assert!(drawing.contains(&format!("Step 4 of {}", player(&window).len())));
-    send(&mut window, Command::Steps(StepCommand::ExportAs(path.clone())));
+    send(&mut window, Command::from(StepCommand::ExportAs(path.clone())));
     assert!(window.query_by_label("Replace 4 files?").is_some());
     press_button(&mut window, "Replace");
     // The message of the first export is still shown.
     wait_until(&mut window, |window| window.state().background.rows(true).is_empty());
     assert!(notice(&window).contains("4 steps written"));
-    send(&mut window, Command::Steps(StepCommand::ExportRange(0, 100_000)));
+    send(&mut window, Command::from(StepCommand::ExportRange(0, 100_000)));
     if player(&window).len() > MOST_FILES {
-        send(&mut window, Command::Steps(StepCommand::ExportAs(path)));
+        send(&mut window, Command::from(StepCommand::ExportAs(path)));
         assert!(notice(&window).contains("at most 500"), "{}", notice(&window));
     }
 }
@@ -495,13 +497,13 @@ fn a_cancelled_export_of_steps_removes_what_it_wrote_and_says_what_it_replaced()
     let mut window = window();
     coarse(&mut window);
     begin(&mut window);
-    send(&mut window, Command::Steps(StepCommand::ExportRange(3, 5)));
-    send(&mut window, Command::Steps(StepCommand::Export(folder.join("lesson.svg"))));
+    send(&mut window, Command::from(StepCommand::ExportRange(3, 5)));
+    send(&mut window, Command::from(StepCommand::Export(folder.join("lesson.svg"))));
     let replaced = || std::fs::read_to_string(&second).unwrap().starts_with("<svg");
     wait_until(&mut window, |_| replaced());
     // The last drawing waits for somebody who reads it.
     let work = window.state().background.rows(true)[0].id;
-    send(&mut window, Command::File(FileCommand::CancelWork(work)));
+    send(&mut window, Command::from(FileCommand::CancelWork(work)));
     std::fs::read(&last).unwrap();
     wait_until(&mut window, |window| notice(window).contains("lesson-0004.svg"));
     assert!(notice(&window).contains("was replaced before that"), "{}", notice(&window));

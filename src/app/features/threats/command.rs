@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::app::command::CommandSet;
+
 use glam::DVec2;
 
 /// One thing to do with the threats of the selected layer. Points and lengths are in world units.
@@ -32,3 +34,5 @@ pub enum ThreatsCommand {
     /// Writes the threats of the selected layer as a table.
     Save(PathBuf),
 }
+
+impl CommandSet for ThreatsCommand {}

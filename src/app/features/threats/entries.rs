@@ -4,12 +4,13 @@ use eframe::egui::Key;
 
 use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand, threats_layer};
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::threats::ThreatEditor;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// The key deletes a threat only while the tool is selected.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let ask =
-        |title: &str, request| CatalogItem::new(Menu::Tool, title, Command::File(FileCommand::Ask(request)));
+        |title: &str, request| CatalogItem::new(Menu::Tool, title, Command::from(FileCommand::Ask(request)));
     let has_threats = threats_layer(state.session.document()).is_some();
     let open = ask("Open table of threats…", &OPEN_THREATS).group();
     let save = ask("Save table of threats…", &SAVE_THREATS).enabled(has_threats);
@@ -17,8 +18,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         // The menu has what the selected tool does.
         return vec![open.palette_only(), save.palette_only()];
     }
-    let is_selected = state.features.threats.selected_in(state.session.document()).is_some();
-    let delete = Command::Threats(ThreatsCommand::Delete);
+    let is_selected = state.feature::<ThreatEditor>().selected_in(state.session.document()).is_some();
+    let delete = Command::from(ThreatsCommand::Delete);
     let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete)
         .key(Key::Delete)
         .only("with the threats tool", true)

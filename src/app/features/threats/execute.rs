@@ -37,7 +37,7 @@ impl Feature for ThreatEditor {
             ThreatsCommand::Delete => self.delete(ctx),
             ThreatsCommand::Open(path) => load_threats(ctx.session, ctx.background, &path),
             ThreatsCommand::SaveAs(path) => {
-                let save = |path| Command::Threats(ThreatsCommand::Save(path));
+                let save = |path| Command::from(ThreatsCommand::Save(path));
                 ctx.commands.extend(ctx.project.save_table_as(path, save));
             }
             ThreatsCommand::Save(path) => save_threats(ctx.session, ctx.background, &path),
@@ -130,7 +130,7 @@ fn editable_threats(ctx: &mut Ctx<'_>) -> Option<(LayerId, Threats)> {
             (problem.to_owned(), "Add a layer of threats", add)
         }
     };
-    let offer = Offer { label, command: Command::Layer(command) };
+    let offer = Offer { label, command: Command::from(command) };
     ctx.session.notices_mut().report_with_offer(problem, offer);
     None
 }

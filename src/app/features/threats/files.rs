@@ -1,6 +1,7 @@
 //! Tables of threats as files.
 
-use crate::app::command::{Command, ThreatsCommand};
+use crate::app::command::Command;
+use crate::app::features::threats::ThreatsCommand;
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// A table in place of the threats of a layer.
@@ -9,7 +10,7 @@ pub static OPEN_THREATS: FileKind = FileKind {
     endings: || vec!["csv"],
     contents: "Tables of threats",
     folder: "threats",
-    ..FileKind::new(|path| Command::Threats(ThreatsCommand::Open(path)))
+    ..FileKind::new(|path| Command::from(ThreatsCommand::Open(path)))
 };
 
 /// The threats of a layer as a table.
@@ -20,8 +21,8 @@ pub static SAVE_THREATS: FileKind = FileKind {
     contents: "Tables of threats",
     folder: "threats",
     suffix: " threats",
-    command_after_browsing: |path| Command::Threats(ThreatsCommand::Save(path)),
-    ..FileKind::new(|path| Command::Threats(ThreatsCommand::SaveAs(path)))
+    command_after_browsing: |path| Command::from(ThreatsCommand::Save(path)),
+    ..FileKind::new(|path| Command::from(ThreatsCommand::SaveAs(path)))
 };
 
 /// The use of a file that threats have.

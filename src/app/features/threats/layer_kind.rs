@@ -5,9 +5,10 @@ use eframe::egui::Ui;
 use super::options::set_threat;
 use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand};
 use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::features::threats::ThreatEditor;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, button_rows};
-use crate::app::widgets::{Icon, NumberRow, ValueRow, format};
 use meshbrush_core::layers::{Layer, LayerKind, Threats};
+use meshbrush_ui::widgets::{Icon, NumberRow, ValueRow, format};
 
 /// Places with a risk around them.
 pub static THREATS_KIND: LayerKindRow = LayerKindRow {
@@ -27,14 +28,14 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let count = threats.list().len();
     let text = format::count(count as u64);
     ValueRow::new("Threats", &text).help("Places with a risk around them, in this layer.").show(ui);
-    let selected = state.features.threats.selected_in(state.session.document());
+    let selected = state.feature::<ThreatEditor>().selected_in(state.session.document());
     if count > 0 {
         // 0 while none is selected.
         let mut number = selected.map_or(0.0, |number| number as f64 + 1.0);
         let row = NumberRow::new("Selected threat", &mut number).range(1.0..=count as f64).integer();
         let help = "Number of the selected threat; the canvas selects threats too, with the tool Threats.";
         if row.help(help).show(ui).changed() {
-            commands.push(Command::Threats(ThreatsCommand::Select((number as usize).max(1) - 1)));
+            commands.push(Command::from(ThreatsCommand::Select((number as usize).max(1) - 1)));
         }
     }
     if let Some(number) = selected {
@@ -61,7 +62,7 @@ fn selected_rows(
     }
     if threat != before {
         set_threat(layer, threats, number, threat, commands);
-        commands.push(Command::Edit(EditCommand::EndGesture));
+        commands.push(Command::from(EditCommand::EndGesture));
     }
 }
 
@@ -76,12 +77,12 @@ fn buttons(
     let middle = middle.unwrap_or_else(|| state.session.document().settings().domain.bounds.center());
     let rows = [
         [
-            ("Add threat", true, Command::Threats(ThreatsCommand::Place(middle))),
-            ("Delete threat", is_selected, Command::Threats(ThreatsCommand::Delete)),
+            ("Add threat", true, Command::from(ThreatsCommand::Place(middle))),
+            ("Delete threat", is_selected, Command::from(ThreatsCommand::Delete)),
         ],
         [
-            ("Open table…", true, Command::File(FileCommand::Ask(&OPEN_THREATS))),
-            ("Save table…", has_threats, Command::File(FileCommand::Ask(&SAVE_THREATS))),
+            ("Open table…", true, Command::from(FileCommand::Ask(&OPEN_THREATS))),
+            ("Save table…", has_threats, Command::from(FileCommand::Ask(&SAVE_THREATS))),
         ],
     ];
     button_rows(ui, rows, commands);

@@ -4,9 +4,10 @@ use eframe::egui::Ui;
 
 use super::threats_layer;
 use crate::app::command::{Command, EditCommand, ShellCommand};
+use crate::app::features::threats::ThreatEditor;
 use crate::app::kit::{FrameState, StripItem, end_gesture_when_released, set_kind};
-use crate::app::widgets::{SliderRow, segmented};
 use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_ui::widgets::{SliderRow, segmented};
 
 /// The range, the peak and the law of the selected threat.
 pub static THREAT_OPTIONS: [StripItem; 3] = [
@@ -19,7 +20,7 @@ pub static THREAT_OPTIONS: [StripItem; 3] = [
 fn selected<'a>(state: &FrameState<'a>) -> Option<(&'a Layer, &'a Threats, usize)> {
     let document = state.session.document();
     let (layer, threats) = threats_layer(document).filter(|(layer, _)| !layer.locked)?;
-    Some((layer, threats, state.features.threats.selected_in(document)?))
+    Some((layer, threats, state.feature::<ThreatEditor>().selected_in(document)?))
 }
 
 /// Changes a threat of a layer. Further changes join the gesture.
@@ -33,7 +34,7 @@ pub fn set_threat(
     let mut threats = threats.clone();
     match threats.set(number, threat) {
         Ok(()) => set_kind(layer, LayerKind::Threats(threats), commands),
-        Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+        Err(error) => commands.push(Command::from(ShellCommand::Report(error.to_string()))),
     }
 }
 
@@ -67,6 +68,6 @@ fn law_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let laws = [(ThreatLaw::Radar, "Radar"), (ThreatLaw::Gaussian, "Gaussian"), (ThreatLaw::Disc, "Disc")];
     if segmented(ui, "How the risk falls", &mut threat.law, &laws).changed() {
         set_threat(layer, threats, number, threat, commands);
-        commands.push(Command::Edit(EditCommand::EndGesture));
+        commands.push(Command::from(EditCommand::EndGesture));
     }
 }

@@ -7,10 +7,10 @@ use crate::app::background::{Aim, Background, Outcome, exported};
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{EmptyDocument, show_with_layer};
 use crate::app::session::Session;
-use crate::app::widgets::format;
 use meshbrush_core::layers::{LayerKind, Threat, Threats};
 use meshbrush_io::io;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::format;
 
 /// Reads a table of threats in place of those of the selected layer, or as a new layer if the selected one is
 /// of another kind. An empty document takes the extent of their ranges.
@@ -39,9 +39,9 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
                     None => LayerCommand::Add(kind),
                 };
                 Outcome::PartRead(vec![
-                    Command::Edit(EditCommand::EndGesture),
-                    Command::Layer(change),
-                    Command::Edit(EditCommand::EndGesture),
+                    Command::from(EditCommand::EndGesture),
+                    Command::from(change),
+                    Command::from(EditCommand::EndGesture),
                 ])
             }
             (Err((_, error)), _) => Outcome::NotRead(format!("{}: {error}", file.display())),

@@ -7,10 +7,10 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, LayerCommand, ThreatsCommand};
+use crate::app::command::{Command, LayerCommand};
 use crate::app::features::inspection::QUERY;
 use crate::app::features::painting::BRUSH;
-use crate::app::features::threats::THREATS;
+use crate::app::features::threats::{THREATS, ThreatsCommand};
 use crate::app::tests::{
     FREE, TALL, Window, click, document, entries, fingerprint, folder, key, level_at, move_to, notice, press,
     release, send, stroke, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
@@ -182,7 +182,7 @@ fn tables_are_saved_and_opened() {
     wait_until(&mut window, |window| threats(window) == saved);
     assert_eq!(entries(&window), before + 1);
     fs::write(&file, "x,y,range,peak\n1,2,0,1\n").unwrap();
-    send(&mut window, Command::Threats(ThreatsCommand::Open(file)));
+    send(&mut window, Command::from(ThreatsCommand::Open(file)));
     assert!(wait_for_notice(&mut window).contains("line 2: range is 0"), "{}", notice(&window));
     assert_eq!(threats(&window), saved);
 }
@@ -191,19 +191,19 @@ fn tables_are_saved_and_opened() {
 fn threats_are_placed_on_layers_of_threats_that_are_not_locked() {
     let mut window = window_with_threats();
     let layer = document(&window).active_layer().unwrap().id;
-    send(&mut window, Command::Layer(LayerCommand::Lock(layer, true)));
+    send(&mut window, Command::from(LayerCommand::Lock(layer, true)));
     click(&mut window, FREE, Modifiers::NONE);
     assert!(notice(&window).contains("is locked") && threats(&window).is_empty(), "{}", notice(&window));
     click_button(&mut window, "Unlock the layer");
     click(&mut window, FREE, Modifiers::NONE);
     assert_eq!(threats(&window).len(), 1);
     // Paint layers are painted on; back on the threats, the tool edits them again.
-    send(&mut window, Command::Layer(LayerCommand::Select(LayerId(2))));
+    send(&mut window, Command::from(LayerCommand::Select(LayerId(2))));
     assert_eq!(window.state().tools().tool, &BRUSH);
-    send(&mut window, Command::Layer(LayerCommand::Select(layer)));
+    send(&mut window, Command::from(LayerCommand::Select(layer)));
     assert_eq!(window.state().tools().tool, &THREATS);
     key(&mut window, Modifiers::NONE, Key::Q);
-    send(&mut window, Command::Layer(LayerCommand::Select(LayerId(2))));
+    send(&mut window, Command::from(LayerCommand::Select(LayerId(2))));
     assert_eq!(window.state().tools().tool, &QUERY, "a tool that reads stays");
     key(&mut window, Modifiers::NONE, Key::K);
     click(&mut window, FREE, Modifiers::NONE);

@@ -5,11 +5,12 @@ use glam::DVec2;
 
 use super::options::THREAT_OPTIONS;
 use super::{ThreatGrip, threats_layer};
-use crate::app::command::{Command, ThreatsCommand};
+use crate::app::command::Command;
+use crate::app::features::threats::{ThreatEditor, ThreatsCommand};
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec, nearest_within};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::layers::Threat;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Edits the threats of the selected layer.
 pub static THREATS: ToolSpec = ToolSpec {
@@ -22,13 +23,13 @@ pub static THREATS: ToolSpec = ToolSpec {
         let at = pointer.world(press.at);
         let reach = pointer.grip_reach();
         let places = press.modifiers.command;
-        commands.push(Command::Threats(ThreatsCommand::Press { at, reach, places }));
-        Some(Box::new(SettingsDrag::new(press.at, |at| Command::Threats(ThreatsCommand::DragTo(at)))))
+        commands.push(Command::from(ThreatsCommand::Press { at, reach, places }));
+        Some(Box::new(SettingsDrag::new(press.at, |at| Command::from(ThreatsCommand::DragTo(at)))))
     },
     menu: |state, point| {
-        let place = Command::Threats(ThreatsCommand::Place(point));
-        let delete = Command::Threats(ThreatsCommand::Delete);
-        let selected = state.features.threats.selected_in(state.session.document());
+        let place = Command::from(ThreatsCommand::Place(point));
+        let delete = Command::from(ThreatsCommand::Delete);
+        let selected = state.feature::<ThreatEditor>().selected_in(state.session.document());
         let mut entries = vec![("Place a threat here", place)];
         entries.extend(selected.map(|_| ("Delete the selected threat", delete)));
         entries
@@ -61,7 +62,7 @@ pub(super) fn grip_at(threats: &[Threat], at: DVec2, reach: f64) -> Option<(usiz
 /// Draws the middles and the rings of the threats in view, the selected one last and wider.
 fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let Some((_, threats)) = threats_layer(state.session.document()) else { return };
-    let selected = state.features.threats.selected_in(state.session.document());
+    let selected = state.feature::<ThreatEditor>().selected_in(state.session.document());
     let others = threats.list().iter().enumerate().filter(|&(number, _)| Some(number) != selected);
     let circles = others.map(|(_, threat)| circle(threat, over));
     let visible = circles.filter(|&(at, radius)| is_in_view(at, radius, over.painter.clip_rect()));

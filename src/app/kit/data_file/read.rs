@@ -26,7 +26,7 @@ const MOST_CIRCLES: usize = 2000;
 pub fn look_at(background: &mut Background, path: &Path, frame: RasterFrame) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match read(&file, &frame, meter) {
-        Ok(data) => Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(Arc::new(data)))]),
+        Ok(data) => Outcome::PartRead(vec![Command::from(ShellCommand::AskRole(Arc::new(data)))]),
         Err(problem) => Outcome::NotRead(problem),
     });
 }

@@ -27,8 +27,8 @@ fn a_harbour_is_painted_and_refined_at_a_thousandfold_zoom() {
     let harbour = dvec2(0.9, 0.5);
     hands.menu("File", "New… Ctrl+N");
     hands.press_in_list("Rectangle");
-    send(&mut hands.window, Command::View(ViewCommand::LookAt(harbour)));
-    send(&mut hands.window, Command::View(ViewCommand::Zoom(1000.0)));
+    send(&mut hands.window, Command::from(ViewCommand::LookAt(harbour)));
+    send(&mut hands.window, Command::from(ViewCommand::Zoom(1000.0)));
     hands.press(Role::RadioButton, "Diameter");
     hands.press(Role::RadioButton, "Set");
     hands.enter("Radius value", "0.0002");

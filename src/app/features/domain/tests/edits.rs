@@ -5,8 +5,8 @@ use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
-use crate::app::features::domain::DomainToolMode;
+use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, open_tab,
@@ -101,7 +101,7 @@ fn window_on_a_long_coast() -> Window {
 /// Cuts along a line, and does not wait for it.
 fn begin_to_cut(window: &mut Window, path: &[DVec2]) {
     let cut_shape = CutShape::Stroke { path: path.to_vec(), radius: 0.05 };
-    window.state_mut().send(Command::Domain(DomainCommand::Reshape(cut_shape, false)));
+    window.state_mut().send(Command::from(DomainCommand::Reshape(cut_shape, false)));
     window.step();
 }
 
@@ -114,7 +114,7 @@ fn a_long_coast_is_cut_while_the_window_goes_on() {
     assert!(window.state().is_cutting(), "a frame does not wait for it");
     begin_to_cut(&mut window, &[a, b]);
     begin_to_cut(&mut window, &[b, c]);
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     assert!(!window.state().is_cutting());
     let swept = 0.4 * 0.1 + std::f64::consts::PI * 0.05 * 0.05;
     assert!((whole - area(&window) - swept).abs() < 0.002, "{}", whole - area(&window));
@@ -131,7 +131,7 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
         |window| key(window, Modifiers::COMMAND, Key::Z),
         |window| key(window, Modifiers::NONE, Key::Escape),
         |window| {
-            window.state_mut().execute(Command::Edit(EditCommand::CancelUpdate), &egui::Context::default())
+            window.state_mut().execute(Command::from(EditCommand::CancelUpdate), &egui::Context::default())
         },
     ];
     for give_up in give_up {
@@ -148,8 +148,8 @@ fn a_cut_under_way_is_given_up_by_undo_by_escape_and_by_another_domain() {
     window.run();
     assert!(window.state().session().document().is_in_gesture());
     begin_to_cut(&mut window, &[DVec2::ZERO, dvec2(0.1, 0.0)]);
-    window.state_mut().execute(Command::Edit(EditCommand::EndGesture), &egui::Context::default());
-    window.state_mut().execute(Command::Edit(EditCommand::CancelUpdate), &egui::Context::default());
+    window.state_mut().execute(Command::from(EditCommand::EndGesture), &egui::Context::default());
+    window.state_mut().execute(Command::from(EditCommand::CancelUpdate), &egui::Context::default());
     assert!(!window.state().session().document().is_in_gesture(), "the journal would wait for its end");
     assert_eq!(entries(&window), entries_before + 1);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -184,7 +184,7 @@ fn wait_for_quality(window: &mut Window) {
 #[test]
 fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     key(&mut window, Modifiers::NONE, Key::D);
     open_section(&mut window, "Fit to outline");
     wait_for_quality(&mut window);
@@ -229,7 +229,7 @@ fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
 #[test]
 fn one_click_shows_the_place_where_the_fit_is_worst() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     open_section(&mut window, "Fit to outline");
     wait_for_quality(&mut window);
     let quality = window.state().session().derived().unwrap().quality.clone().unwrap();
@@ -249,12 +249,12 @@ fn a_file_of_polygons_opens_as_a_document() {
     let rings = "[[[10, 0], [14, 0], [14, 2], [10, 2], [10, 0]], [[11, 0.5], [12, 0.5], [12, 1], [11, 1], [11, 0.5]]]";
     std::fs::write(&path, format!("{{\"type\": \"Polygon\", \"coordinates\": {rings}}}")).unwrap();
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Open(path.clone())));
+    send(&mut window, Command::from(DomainCommand::Open(path.clone())));
     wait_until(&mut window, |window| settings(window).name == "lake");
     assert_eq!(settings(&window).domain.bounds.max, dvec2(14.0, 2.0));
     assert!((area(&window) - 7.5).abs() < 0.01, "{}", area(&window));
     std::fs::write(&path, "{\"type\": \"Point\", \"coordinates\": [1, 2]}").unwrap();
-    send(&mut window, Command::Domain(DomainCommand::Open(path)));
+    send(&mut window, Command::from(DomainCommand::Open(path)));
     let text = wait_for_notice(&mut window);
     assert!(text.contains("lake.geojson: a domain needs a Polygon"), "{text}");
     assert_eq!(settings(&window).name, "lake");
@@ -263,12 +263,12 @@ fn a_file_of_polygons_opens_as_a_document() {
 #[test]
 fn the_hint_of_the_tool_goes_once_it_was_used_a_few_times() {
     let mut window = window();
-    send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Rectangle)));
+    send(&mut window, Command::from(DomainCommand::Mode(DomainToolMode::Rectangle)));
     let has_hint = |window: &Window| !window.state().tools().hint(&window.state().state(None)).is_empty();
     for use_ in 0..6 {
         assert!(has_hint(&window), "{use_} uses");
         let bounds = Rect::new(DVec2::ZERO, dvec2(1.0, 0.5 + 0.05 * f64::from(use_)));
-        send(&mut window, Command::Domain(DomainCommand::Bounds(bounds)));
+        send(&mut window, Command::from(DomainCommand::Bounds(bounds)));
     }
     assert!(!has_hint(&window));
 }

@@ -4,8 +4,9 @@ use eframe::egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, DomainCommand, FileCommand};
-use crate::app::features::domain::DomainToolMode;
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::DomainTool;
+use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::tests::{
     Window, area, click, entries, key, move_to, notice, on_screen, open_menu, press, press_at, release,
     release_at, send, wait_until, window,
@@ -16,8 +17,8 @@ const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), 
 /// Returns a new document and an open polygon with these corners.
 fn with_corners(corners: &[DVec2]) -> Window {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
+    send(&mut window, Command::from(FileCommand::New));
+    send(&mut window, Command::from(DomainCommand::Mode(DomainToolMode::Polygon)));
     for &corner in corners {
         click(&mut window, corner, Modifiers::NONE);
     }
@@ -25,7 +26,7 @@ fn with_corners(corners: &[DVec2]) -> Window {
 }
 
 fn corner_count(window: &Window) -> usize {
-    window.state().tools().domain.corners.len()
+    window.state().tools().settings::<DomainTool>().corners.len()
 }
 
 /// Whether the polygon was cut out: a square of 0.2 × 0.2, unless a corner was moved.
@@ -46,8 +47,8 @@ fn backspace_and_ctrl_z_remove_the_last_corner() {
     assert!(window.query_by_label_contains("Undo corner of the polygon").is_some());
     key(&mut window, Modifiers::NONE, Key::Escape);
     // The document is undone only when no corner is left.
-    send(&mut window, Command::Domain(DomainCommand::RemoveCorner));
-    send(&mut window, Command::Domain(DomainCommand::RemoveCorner));
+    send(&mut window, Command::from(DomainCommand::RemoveCorner));
+    send(&mut window, Command::from(DomainCommand::RemoveCorner));
     assert_eq!(corner_count(&window), 0);
     open_menu(&mut window, "Edit");
     assert!(window.query_by_label_contains("Undo corner of the polygon").is_none());
@@ -88,7 +89,7 @@ fn corners_can_be_dragged_before_the_polygon_is_closed() {
         move_to(&mut window, to);
         release(&mut window, to);
     }
-    let corners = &window.state().tools().domain.corners;
+    let corners = &window.state().tools().settings::<DomainTool>().corners;
     assert_eq!(corners.len(), 4);
     assert!(corners[2].distance(dvec2(0.6, 0.4)) < 1e-3 && corners[0].distance(dvec2(0.2, 0.1)) < 1e-3);
     let shoelace = |ring: &[DVec2]| {

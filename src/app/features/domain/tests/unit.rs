@@ -6,7 +6,9 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::app::command::{Command, DomainCommand, FileCommand, InspectCommand};
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::DomainCommand;
+use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, TALL, Window, entries, find, fingerprint, folder, key, move_to, open_section, open_tab, send, set,
@@ -41,7 +43,7 @@ fn the_unit_is_chosen_in_the_domain_panel_and_undone() {
 #[test]
 fn every_length_carries_the_unit() {
     let mut window = in_metres();
-    send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
+    send(&mut window, Command::from(InspectCommand::Query(FREE)));
     crate::app::tests::select_base(&mut window);
     move_to(&mut window, FREE);
     for name in ["Radius value", "h_max value", "h_min value", "Spacing δ value", "Diameter"] {
@@ -82,14 +84,14 @@ fn examples_and_domains_from_files_have_their_unit() {
         (Example::Aegean, LengthUnit::Degree),
         (Example::CelticSea, LengthUnit::Metre),
     ] {
-        send(&mut window, Command::File(FileCommand::OpenExample(example)));
+        send(&mut window, Command::from(FileCommand::OpenExample(example)));
         assert_eq!(settings(&window).unit, unit, "{}", example.name());
     }
     let file = folder("unit", "domain").join("utm.geojson");
     let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32635"}}"#;
     let ring = "[[[0,0],[4000,0],[0,4000],[0,0]]]";
     fs::write(&file, format!(r#"{{"type":"Polygon",{crs},"coordinates":{ring}}}"#)).unwrap();
-    send(&mut window, Command::Domain(DomainCommand::Open(file)));
+    send(&mut window, Command::from(DomainCommand::Open(file)));
     wait_until(&mut window, |window| settings(window).name == "utm");
     assert_eq!(settings(&window).unit, LengthUnit::Metre);
     assert!(triangles(&window) > 100);

@@ -5,8 +5,8 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use crate::app::command::{Command, FileCommand, InspectCommand, ShellCommand};
-use crate::app::features::inspection::QUERY;
+use crate::app::command::{Command, FileCommand, ShellCommand};
+use crate::app::features::inspection::{InspectCommand, QUERY};
 use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, RESTING_PLACE, TALL, button_event, click, entries, key, on_screen, open_tab, selected, send,
@@ -32,7 +32,7 @@ fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
     assert_eq!(entries(&window), 0, "a question is no edit");
 
     for (i, name) in ["Bisection neighbour", "Second neighbour", "Third neighbour"].iter().enumerate() {
-        send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(start)));
+        send(&mut window, Command::from(InspectCommand::QueryTriangle(start)));
         let there = window.state().session().mesh().neighbours(start)[i].triangle().unwrap();
         window.get_by_role_and_label(Role::Button, name).click();
         window.run();
@@ -72,9 +72,9 @@ fn a_key_and_a_click_in_one_slow_frame_are_a_query() {
 #[test]
 fn the_inspector_counts_as_files_do() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
-    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(25.25, 38.1))));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(InspectCommand::Query(dvec2(25.25, 38.1))));
     window.run();
     // What files get, derived here again.
     let follower = window.state().session().follower();
@@ -86,7 +86,7 @@ fn the_inspector_counts_as_files_do() {
         follower.mesh().locate(dvec2(25.25, 38.1)).triangle().is_some_and(|raw| raw != id),
         "land comes first"
     );
-    let shown = |number: usize| crate::app::widgets::format::count(number as u64);
+    let shown = |number: usize| meshbrush_ui::widgets::format::count(number as u64);
     window.get_by_role_and_label(Role::Button, &format!("Triangle {}", shown(id.index())));
     for (node, subscript) in extract.cell(id).corners.into_iter().zip(["₁", "₂", "₃"]) {
         let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node)));
@@ -116,7 +116,7 @@ fn a_chip_at_the_edge_of_the_domain_goes_nowhere() {
     let mesh = window.state().session().mesh();
     let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
     let missing = mesh.neighbours(id).iter().position(|n| n.triangle().is_none()).unwrap();
-    send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(id)));
+    send(&mut window, Command::from(InspectCommand::QueryTriangle(id)));
     open_tab(&mut window, Tab::Inspect);
     let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][missing];
     let chip = window.get_by_role_and_label(Role::Button, name);

@@ -5,8 +5,8 @@ use eframe::egui::{Key, Modifiers, OutputCommand, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{Command, InspectCommand, ShellCommand};
-use crate::app::features::inspection::QUERY;
+use crate::app::command::{Command, ShellCommand};
+use crate::app::features::inspection::{InspectCommand, QUERY};
 use crate::app::features::painting::BRUSH;
 use crate::app::tests::{
     FREE, TALL, Window, click, entries, key, notice, on_screen, open_section, press_at, release_at, selected,
@@ -81,8 +81,8 @@ fn a_key_of_a_neighbour_beyond_the_boundary_says_that_there_is_none() {
     let mesh = window.state().session().mesh();
     let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
     let missing = mesh.neighbours(id).iter().position(|n| n.triangle().is_none()).unwrap();
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
-    send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(id)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(InspectCommand::QueryTriangle(id)));
     key(&mut window, Modifiers::NONE, [Key::Num1, Key::Num2, Key::Num3][missing]);
     assert_eq!(selected(&window), Some(id));
     assert!(notice(&window).contains("on the boundary"), "{}", notice(&window));
@@ -91,8 +91,8 @@ fn a_key_of_a_neighbour_beyond_the_boundary_says_that_there_is_none() {
 #[test]
 fn a_click_on_a_value_copies_all_of_its_digits() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
-    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.123456789, 0.7))));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(InspectCommand::Query(dvec2(0.123456789, 0.7))));
     window.get_by_role_and_label(Role::Definition, "Point").click();
     assert_eq!(copied_soon(&mut window), "0.123456789, 0.7");
     window.run();
@@ -104,8 +104,8 @@ fn a_click_on_a_value_copies_all_of_its_digits() {
 #[test]
 fn ctrl_c_copies_every_value_in_full() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
-    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.123456789, 0.7))));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(InspectCommand::Query(dvec2(0.123456789, 0.7))));
     window.event(eframe::egui::Event::Copy);
     let text = copied_soon(&mut window);
     let id = selected(&window).unwrap();
@@ -131,7 +131,7 @@ fn ctrl_c_copies_every_value_in_full() {
 fn vertices_and_weights_are_in_the_order_of_files() {
     let mut window = window_of(TALL);
     for point in [dvec2(0.12, 0.7), dvec2(0.31, 0.44), dvec2(0.71, 0.735), dvec2(0.9, 0.13)] {
-        send(&mut window, Command::Inspect(InspectCommand::Query(point)));
+        send(&mut window, Command::from(InspectCommand::Query(point)));
         let session = window.state().session();
         let triangle = session.readout(window.state().view().quantity).unwrap().triangle.unwrap();
         let cleaning = session.document().settings().derived_cleaning();

@@ -12,7 +12,7 @@ use crate::app::tests::{TALL, Window, choose, click, key, selected, send, value_
 #[test]
 fn the_tab_method_says_how_long_the_walk_is_and_a_toggle_hides_it() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     let point = dvec2(0.71, 0.735);
     click(&mut window, point, Modifiers::NONE);
     choose(&mut window, "Method", "Show the tab Method");
@@ -35,7 +35,7 @@ fn the_tab_method_says_how_long_the_walk_is_and_a_toggle_hides_it() {
 #[test]
 fn with_shift_the_trail_of_neighbours_stays_until_the_next_query() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    send(&mut window, Command::from(ShellCommand::Use(&QUERY)));
     click(&mut window, dvec2(0.5, 0.45), Modifiers::NONE);
     let start = selected(&window).unwrap();
     let trail = |window: &Window| window.state().session().trail().len();

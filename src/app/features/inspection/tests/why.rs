@@ -6,13 +6,14 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, EditCommand};
+use crate::app::features::inspection::Inspector;
 use crate::app::features::inspection::QUERY;
 use crate::app::tests::{TALL, Window, click, key, painted_shapes, send, stroke, window_of};
 use meshbrush_core::explain::Explanation;
 use meshbrush_mesh::mesh::{Cause, TriangleId};
 
 fn explanation(window: &Window) -> &Explanation {
-    window.state().features().inspection.explore.explanation().unwrap()
+    window.state().features().get::<Inspector>().explore.explanation().unwrap()
 }
 
 /// Queries a triangle of the shown mesh that was bisected for compatibility, or for its own rule.
@@ -56,7 +57,7 @@ fn the_panel_names_the_layer_that_asked_for_a_triangle() {
     query_one(&mut window, false);
     assert!(says(&window, "exceeds its target."), "the parent's own rule");
     assert!(says(&window, "where the layer “"), "the layer that decides");
-    assert!(window.state().features().inspection.explore.chain().is_empty());
+    assert!(window.state().features().get::<Inspector>().explore.chain().is_empty());
 }
 
 #[test]
@@ -64,15 +65,15 @@ fn the_chain_is_walked_by_chips_and_by_keys() {
     let mut window = window_of(TALL);
     query_one(&mut window, true);
     assert!(says(&window, "to keep the mesh compatible"));
-    let chain = window.state().features().inspection.explore.chain().to_vec();
+    let chain = window.state().features().get::<Inspector>().explore.chain().to_vec();
     press_button(&mut window, "Triangle 1 of the chain");
-    assert_eq!(window.state().features().inspection.explore.shown(), chain.first());
+    assert_eq!(window.state().features().get::<Inspector>().explore.shown(), chain.first());
     key(&mut window, Modifiers::NONE, Key::Period);
-    assert_eq!(window.state().features().inspection.explore.shown(), chain.get(1));
+    assert_eq!(window.state().features().get::<Inspector>().explore.shown(), chain.get(1));
     key(&mut window, Modifiers::NONE, Key::Comma);
-    assert_eq!(window.state().features().inspection.explore.link(), Some(0));
+    assert_eq!(window.state().features().get::<Inspector>().explore.link(), Some(0));
     key(&mut window, Modifiers::COMMAND, Key::PageDown);
-    assert!(!window.state().features().inspection.explore.is_away(), "back to the queried triangle");
+    assert!(!window.state().features().get::<Inspector>().explore.is_away(), "back to the queried triangle");
 }
 
 #[test]
@@ -81,23 +82,23 @@ fn the_tree_is_walked_up_and_down() {
     query_one(&mut window, false);
     let queried = explanation(&window).triangle;
     key(&mut window, Modifiers::NONE, Key::PageUp);
-    let parent = *window.state().features().inspection.explore.shown().unwrap();
+    let parent = *window.state().features().get::<Inspector>().explore.shown().unwrap();
     assert_eq!(parent.level() + 1, queried.level());
     assert_eq!(row(&window, "State").unwrap(), "was bisected");
     let halves = parent.children();
     let half = halves.iter().position(|half| half.is_same(&queried)).unwrap();
     press_button(&mut window, ["Second half", "First half"][half]);
-    let sibling = *window.state().features().inspection.explore.shown().unwrap();
+    let sibling = *window.state().features().get::<Inspector>().explore.shown().unwrap();
     assert!(halves[1 - half].is_same(&sibling));
     press_button(&mut window, "Sibling");
     assert!(
-        !window.state().features().inspection.explore.is_away(),
+        !window.state().features().get::<Inspector>().explore.is_away(),
         "the sibling of the sibling is the queried triangle"
     );
     key(&mut window, Modifiers::COMMAND, Key::PageUp);
-    assert_eq!(window.state().features().inspection.explore.shown().unwrap().level(), 0);
+    assert_eq!(window.state().features().get::<Inspector>().explore.shown().unwrap().level(), 0);
     press_button(&mut window, &format!("Ancestor of level {}", parent.level()));
-    assert!(window.state().features().inspection.explore.shown().unwrap().is_same(&parent));
+    assert!(window.state().features().get::<Inspector>().explore.shown().unwrap().is_same(&parent));
     press_button(&mut window, "Ancestor of level 0");
     choose_node(&mut window, "Apex");
     assert_eq!(row(&window, "Parent nodes").unwrap(), "none: a coarse node");
@@ -135,9 +136,12 @@ fn an_edit_is_explained_once_the_mesh_is_complete() {
     window.run();
     let after = explanation(&window);
     assert!(after.triangle.level() >= before.level());
-    assert!(!window.state().features().inspection.explore.is_away(), "another mesh: the walk starts again");
+    assert!(
+        !window.state().features().get::<Inspector>().explore.is_away(),
+        "another mesh: the walk starts again"
+    );
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().features().inspection.explore.explanation().is_none());
+    assert!(window.state().features().get::<Inspector>().explore.explanation().is_none());
     assert!(says(&window, "what asked for it appears here"));
 }
 
@@ -170,7 +174,7 @@ fn the_age_of_a_triangle_counts_the_edits_since_it_came() {
     stroke(&mut window, second, second + dvec2(0.05, 0.0));
     window.run_steps(5);
     assert_eq!([first, second, other].map(|at| age(&window, at)), [Some(1), Some(0), None]);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     window.run_steps(5);
     assert_eq!(age(&window, first), Some(2), "an undo is an edit");
 }

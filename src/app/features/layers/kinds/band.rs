@@ -6,8 +6,8 @@ use super::raster::source_rows;
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::OPEN_BAND;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
-use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_ui::widgets::{Icon, NumberRow};
 
 /// A band of the values of a raster.
 pub static BAND: LayerKindRow = LayerKindRow {
@@ -16,8 +16,8 @@ pub static BAND: LayerKindRow = LayerKindRow {
     icon: Icon::BAND,
     tool: None,
     additions: &[
-        Addition { title: "band of a raster…", command: |_| Command::Layer(LayerCommand::AddBand) },
-        Addition { title: "band of a file…", command: |_| Command::File(FileCommand::Ask(&OPEN_BAND)) },
+        Addition { title: "band of a raster…", command: |_| Command::from(LayerCommand::AddBand) },
+        Addition { title: "band of a file…", command: |_| Command::from(FileCommand::Ask(&OPEN_BAND)) },
     ],
     parameters,
 };

@@ -6,10 +6,10 @@ use std::sync::{Arc, Weak};
 use eframe::egui::{Id, Response, Ui};
 
 use crate::app::kit::{FrameState, remark};
-use crate::app::widgets::{ActionButton, CurveChange, CurvePlot, KnotAnswer, KnotRow};
 use meshbrush_core::layers::{FineAt, RasterSource, ValueCurve};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{ActionButton, CurveChange, CurvePlot, KnotAnswer, KnotRow};
 
 /// Bars of the histogram.
 const BARS: usize = 48;

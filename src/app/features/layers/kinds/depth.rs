@@ -3,15 +3,16 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, DomainCommand, FileCommand};
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::DomainCommand;
 use crate::app::features::layers::{OPEN_DEPTH, way_to_metres};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
-use crate::app::widgets::{
-    ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
-};
 use meshbrush_core::domain::DepthContour;
 use meshbrush_core::layers::{DepthRule, DepthSizes, Layer, LayerKind, PositiveDepth, wavelength};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{
+    ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
+};
 
 /// Depths of water.
 pub static DEPTH: LayerKindRow = LayerKindRow {
@@ -21,7 +22,7 @@ pub static DEPTH: LayerKindRow = LayerKindRow {
     tool: None,
     additions: &[Addition {
         title: "depth of water…",
-        command: |_| Command::File(FileCommand::Ask(&OPEN_DEPTH)),
+        command: |_| Command::from(FileCommand::Ask(&OPEN_DEPTH)),
     }],
     parameters,
 };
@@ -114,7 +115,7 @@ fn contour_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &m
     let help = "Inlets of the contour that are narrower are closed; 0 keeps all.";
     row.unit(symbol).help(help).show(ui);
     if ui.add(ActionButton::new("Use the contour as the domain")).clicked() {
-        commands.push(Command::Domain(DomainCommand::UseContour(layer.id, contour)));
+        commands.push(Command::from(DomainCommand::UseContour(layer.id, contour)));
     }
     ui.data_mut(|data| data.insert_temp(id, contour));
 }

@@ -2,13 +2,14 @@
 
 use eframe::egui::{ScrollArea, Ui};
 
-use crate::app::command::{Command, FileCommand, LayerCommand, RegionCommand, RegionTarget};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
+use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryType, PieceChoice};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 
 /// The distance to shapes or to the outline of the domain.
 pub static DISTANCE: LayerKindRow = LayerKindRow {
@@ -23,7 +24,7 @@ pub static DISTANCE: LayerKindRow = LayerKindRow {
         Addition { title: "distance to the outline", command: add_distance_to_outline },
         Addition { title: "distance to drawn shapes", command: |_| draw_shapes() },
         Addition {
-            title: "distance to shapes…", command: |_| Command::File(FileCommand::Ask(&OPEN_SHAPES))
+            title: "distance to shapes…", command: |_| Command::from(FileCommand::Ask(&OPEN_SHAPES))
         },
     ],
     parameters,
@@ -36,7 +37,7 @@ const MOST_ROWS: usize = 200;
 
 /// Selects the tool that draws shapes: the first one adds a layer, unless the selected one has shapes.
 fn draw_shapes() -> Command {
-    Command::Region(RegionCommand::Target(RegionTarget::Shapes))
+    Command::from(RegionCommand::Target(RegionTarget::Shapes))
 }
 
 fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
@@ -111,7 +112,7 @@ fn pieces_rows(
         }
     });
     if next != *chosen {
-        commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, DistanceTo::Pieces(next))));
+        commands.push(Command::from(LayerCommand::MeasureTo(layer.id, DistanceTo::Pieces(next))));
     }
     if !pieces.list().iter().any(|piece| chosen.includes(piece)) {
         remark(ui, "No piece of the boundary is chosen: the layer asks for nothing.");
@@ -122,7 +123,7 @@ fn pieces_rows(
 fn chosen_row(ui: &mut Ui, layer: &Layer, mut chooses: bool, commands: &mut Vec<Command>) {
     if toggle_row(ui, "Only some pieces", &mut chooses).changed() {
         let to = if chooses { DistanceTo::Pieces(PieceChoice::of_land()) } else { DistanceTo::Outline };
-        commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, to)));
+        commands.push(Command::from(LayerCommand::MeasureTo(layer.id, to)));
     }
 }
 
@@ -140,7 +141,7 @@ fn open_boundary_row(
     }
     if toggle_row(ui, "Leave out open boundaries", &mut leaves_out).changed() {
         let to = if leaves_out { DistanceTo::Coasts } else { DistanceTo::Outline };
-        commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, to)));
+        commands.push(Command::from(LayerCommand::MeasureTo(layer.id, to)));
     }
     chosen_row(ui, layer, false, commands);
     let domain = &state.session.document().settings().domain;
@@ -157,12 +158,12 @@ fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Ve
             commands.push(draw_shapes());
         }
         if ui.add(ActionButton::new("Open shapes…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&REPLACE_SHAPES)));
+            commands.push(Command::from(FileCommand::Ask(&REPLACE_SHAPES)));
         }
         let is_shapes = to.shapes().is_some();
         let outline = ActionButton::new("Use outline");
         if ui.add_enabled_ui(is_shapes, |ui| ui.add(outline)).inner.clicked() {
-            commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, DistanceTo::Outline)));
+            commands.push(Command::from(LayerCommand::MeasureTo(layer.id, DistanceTo::Outline)));
         }
     });
     ui.add_space(4.0);

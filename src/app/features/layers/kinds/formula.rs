@@ -8,10 +8,10 @@ use eframe::egui::Ui;
 use super::quantity_name;
 use crate::app::command::Command;
 use crate::app::kit::{Addition, FormulaRow, FrameState, LayerKindRow, add_layer, set_kind_once};
-use crate::app::widgets::{Icon, NumberRow, segmented};
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
+use meshbrush_ui::widgets::{Icon, NumberRow, segmented};
 
 /// A formula in x and y.
 pub static FORMULA: LayerKindRow = LayerKindRow {

@@ -12,7 +12,7 @@ mod straits;
 mod surface;
 mod water;
 
-use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
+use crate::app::kit::{LayerKindRow, LayerKinds};
 use meshbrush_core::layers::{LayerKind, Quantity};
 
 /// The kinds of layers of this feature.
@@ -29,8 +29,8 @@ pub static KINDS: [&LayerKindRow; 9] = [
 ];
 
 /// Returns the kind of a layer.
-pub fn kind_of(rows: &'static [Row], kind: &LayerKind) -> &'static LayerKindRow {
-    kinds_of_layers(rows).into_iter().find(|row| (row.is_of)(kind)).unwrap_or(&paint::PAINT)
+pub fn kind_of(all: LayerKinds, kind: &LayerKind) -> &'static LayerKindRow {
+    all.iter().find(|row| (row.is_of)(kind)).copied().unwrap_or(&paint::PAINT)
 }
 
 /// The name of a quantity.

@@ -5,9 +5,9 @@ use eframe::egui::Ui;
 use super::quantity_name;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer};
-use crate::app::widgets::{ActionButton, Icon, ValueRow};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_mesh::text::Bytes;
+use meshbrush_ui::widgets::{ActionButton, Icon, ValueRow};
 
 /// Painted risk and painted diameters.
 pub static PAINT: LayerKindRow = LayerKindRow {
@@ -42,6 +42,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let is_blank = painted.is_none_or(|raster| raster.is_blank());
     let button = ActionButton::new("Clear this layer");
     if ui.add_enabled_ui(!is_blank, |ui| ui.add(button)).inner.clicked() {
-        commands.push(Command::Layer(LayerCommand::Clear(layer.id)));
+        commands.push(Command::from(LayerCommand::Clear(layer.id)));
     }
 }

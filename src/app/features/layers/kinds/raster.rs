@@ -10,11 +10,11 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use crate::app::kit::{
     Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once, size_price_row,
 };
-use crate::app::widgets::{Icon, ValueRow, format, segmented};
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
 use meshbrush_core::raster::check_values;
+use meshbrush_ui::widgets::{Icon, ValueRow, format, segmented};
 
 /// A picture or a grid.
 pub static RASTER: LayerKindRow = LayerKindRow {
@@ -25,15 +25,15 @@ pub static RASTER: LayerKindRow = LayerKindRow {
     additions: &[
         Addition {
             title: "picture or grid, as risk…",
-            command: |_| Command::File(FileCommand::Ask(&OPEN_RISK)),
+            command: |_| Command::from(FileCommand::Ask(&OPEN_RISK)),
         },
         Addition {
             title: "grid, as target diameter…",
-            command: |_| Command::File(FileCommand::Ask(&OPEN_DIAMETERS)),
+            command: |_| Command::from(FileCommand::Ask(&OPEN_DIAMETERS)),
         },
         Addition {
             title: "picture or grid, through a curve…",
-            command: |_| Command::File(FileCommand::Ask(&OPEN_VALUES)),
+            command: |_| Command::from(FileCommand::Ask(&OPEN_VALUES)),
         },
     ],
     parameters,
@@ -70,7 +70,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
             Ok(reading) => {
                 set_kind_once(layer, LayerKind::Raster { source: source.clone(), reading }, commands);
             }
-            Err(problem) => commands.push(Command::Shell(ShellCommand::Report(problem))),
+            Err(problem) => commands.push(Command::from(ShellCommand::Report(problem))),
         }
     } else if let RasterReading::Curve(curve) = reading {
         curve_controls(ui, state, layer, source, curve, commands);

@@ -5,10 +5,10 @@ use eframe::egui::Ui;
 use super::water::{ChangedWater, WaterRows};
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
-use crate::app::widgets::{Icon, ValueRow, format};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::{Layer, LayerKind, StraitDisc, StraitDiscs, Straits};
+use meshbrush_ui::widgets::{Icon, ValueRow, format};
 
 /// Triangles across straits.
 pub static STRAITS: LayerKindRow = LayerKindRow {
@@ -61,6 +61,6 @@ fn show_narrowest(
     let text = state.unit().after(&format::digits(width, 4));
     let help = "Width of the narrowest passage between two shores, with wider water on both sides. A click goes there.";
     if ValueRow::new("Narrowest strait", &text).help(help).link().show(ui).clicked() {
-        commands.push(Command::View(ViewCommand::LookAt(center)));
+        commands.push(Command::from(ViewCommand::LookAt(center)));
     }
 }

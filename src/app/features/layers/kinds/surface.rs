@@ -3,15 +3,16 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, DomainCommand, FileCommand, LayerCommand, ViewCommand};
-use crate::app::features::layers::OPEN_SURFACE;
+use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
+use crate::app::features::domain::DomainCommand;
+use crate::app::features::layers::{LayerEditor, OPEN_SURFACE};
 use crate::app::kit::{
     Addition, FormulaRow, FrameState, LayerKindRow, add_layer, end_gesture_when_released, remark, set_kind,
     set_kind_once,
 };
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
 use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use meshbrush_mesh::text::round_below;
+use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
 
 /// A raster or a formula as a surface.
 pub static SURFACE: LayerKindRow = LayerKindRow {
@@ -22,7 +23,7 @@ pub static SURFACE: LayerKindRow = LayerKindRow {
     additions: &[
         Addition {
             title: "surface of a file, within an error…",
-            command: |_| Command::File(FileCommand::Ask(&OPEN_SURFACE)),
+            command: |_| Command::from(FileCommand::Ask(&OPEN_SURFACE)),
         },
         Addition {
             title: "surface of a formula, within an error",
@@ -105,7 +106,7 @@ fn norm_row(
     let help = "The error that is meant: the largest difference, for which the mesh is exactly the smallest, or a root mean \
                 square over the mesh, of the differences or of those of the gradient, for which it is near it.";
     if segmented(ui, "Norm", &mut norm, &NORMS).on_hover_text(help).changed() {
-        let fit = state.features.layers.surface_fit.figures(state.session);
+        let fit = state.feature::<LayerEditor>().surface_fit.figures(state.session);
         let error = fit.map(|(fit, _)| fit.error(norm)).filter(|error| *error > 0.0 && error.is_finite());
         // An error of one norm says nothing about another one: the mesh as it is stays about as it is.
         let goal = match (surface.goal, error) {
@@ -180,15 +181,15 @@ fn missing_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &m
     }
     let button = ActionButton::new("Use the area with values as the domain");
     if ui.add(button).clicked() {
-        commands.push(Command::Domain(DomainCommand::UseValues(layer.id)));
+        commands.push(Command::from(DomainCommand::UseValues(layer.id)));
     }
 }
 
 /// Shows how far the mesh is from the surfaces.
 fn fit_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let measured = &state.features.layers.surface_fit;
+    let measured = &state.feature::<LayerEditor>().surface_fit;
     if measured.is_due(state.session) {
-        commands.push(Command::Layer(LayerCommand::MeasureSurface));
+        commands.push(Command::from(LayerCommand::MeasureSurface));
     }
     let rule = state.session.follower().surface();
     if layer.visible && rule.is_some_and(|rule| rule.exceeded_count().is_some()) {
@@ -207,7 +208,7 @@ fn fit_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut V
         }
         let help = "The largest difference of a sample of the surfaces from the mesh. A click goes there.";
         if ValueRow::new("Error", &format::digits(fit.largest, 5)).help(help).link().show(ui).clicked() {
-            commands.push(Command::View(ViewCommand::LookAt(fit.at)));
+            commands.push(Command::from(ViewCommand::LookAt(fit.at)));
         }
         let help = "The square root of the mean of the squares of all differences.";
         ValueRow::new("Root mean square", &format::digits(fit.rms, 5)).help(help).show(ui);

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use crate::app::kit::{FrameState, remark};
-use crate::app::widgets::NumberRow;
+use meshbrush_ui::widgets::NumberRow;
 
 /// The numbers of a layer, and a sentence for each.
 pub struct WaterRows {

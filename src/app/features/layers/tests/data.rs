@@ -39,7 +39,7 @@ fn add_by_button(window: &mut Window, entry: &str) {
 /// Returns a window with a raster of risk at the bottom, which is selected.
 fn window_with_terrain() -> Window {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Terrain)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Terrain)));
     select(&mut window, "Base");
     window
 }
@@ -84,7 +84,7 @@ fn a_band_is_made_of_the_raster_at_hand() {
     type_into(&mut window, "Values from", &greatest.to_string());
     assert_ne!(triangles(&window), before, "the mesh follows the band");
     // A layer of another kind is selected: the highest raster counts.
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::constant(1.0)))));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::constant(1.0)))));
     choose_in_palette(&mut window, "Add layer: band of a raster…");
     assert!(Arc::ptr_eq(&source(&window).raster, &raster));
     assert_eq!(settings(&window).layers.len(), 6);
@@ -112,7 +112,7 @@ fn without_a_raster_a_band_is_made_of_a_file() {
         "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n\
                                                NODATA_value -1\n-1\n",
     );
-    send(&mut window, Command::Layer(LayerCommand::OpenBand(empty)));
+    send(&mut window, Command::from(LayerCommand::OpenBand(empty)));
     assert!(wait_for_notice(&mut window).contains("no pixel of the grid has a value"), "{}", notice(&window));
     assert_eq!(entries(&window), 1);
 }
@@ -172,7 +172,7 @@ fn a_grid_of_any_values_opens_through_a_curve() {
 fn window_with_curve(test: &str) -> Window {
     let depths = written(test, "depths.asc", DEPTHS);
     let mut window = window_of(TALL);
-    send(&mut window, Command::Layer(LayerCommand::OpenValues(depths)));
+    send(&mut window, Command::from(LayerCommand::OpenValues(depths)));
     wait_until(&mut window, |window| active(window).name == "depths.asc");
     window
 }
@@ -236,7 +236,7 @@ fn a_grid_of_diameters_goes_through_a_curve_and_back() {
     let diameters = DEPTHS.replace("-30 0\n60", "0.5 1\n2");
     let file = written("diameters", "diameters.asc", &diameters);
     let mut window = window_of(TALL);
-    send(&mut window, Command::Layer(LayerCommand::OpenDiameters(file)));
+    send(&mut window, Command::from(LayerCommand::OpenDiameters(file)));
     wait_until(&mut window, |window| active(window).name == "diameters.asc");
     choose_in(&mut window, "What the values mean", "Curve");
     let transfer = settings(&window).transfer;
@@ -273,7 +273,7 @@ fn distances_are_measured_to_shapes_of_a_file() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert!(is_to(&window, "site.geojson"));
     fs::write(&site, "{").unwrap();
-    send(&mut window, Command::Layer(LayerCommand::ReplaceShapes(site)));
+    send(&mut window, Command::from(LayerCommand::ReplaceShapes(site)));
     assert!(wait_for_notice(&mut window).contains("site.geojson"), "{}", notice(&window));
     assert!(is_to(&window, "site.geojson"));
 }
@@ -312,7 +312,7 @@ fn distances_are_measured_to_chosen_pieces_of_the_boundary() {
     let pieces = window.state().session.boundary_pieces().unwrap();
     let marks = pieces.retyped(&BoundaryMarks::default(), 0, Some(BoundaryType::Land));
     assert_eq!(pieces.list()[0].name, "open south");
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::BoundaryMarks(marks))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::BoundaryMarks(marks))));
     assert_eq!(level_at(&window, south), fine);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert!(level_at(&window, south) < fine);
@@ -327,7 +327,7 @@ fn a_formula_of_the_depth_needs_a_layer_of_depths() {
     select(&mut window, "Base");
     type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.01*abs(depth)");
     assert!(wait_for_notice(&mut window).contains("there are no depths"), "{}", notice(&window));
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| active(window).name == "depths.asc");
     select(&mut window, "Base");
     type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.01*abs(depth)");
@@ -357,7 +357,7 @@ fn undo_says_what_was_done_to_the_layers() {
         (LayerCommand::Delete(base), "Undo delete layer Ctrl+Z"),
         (LayerCommand::LimitGradation(true), "Undo gradation Ctrl+Z"),
     ] {
-        send(&mut window, Command::Layer(command));
+        send(&mut window, Command::from(command));
         open_menu(&mut window, "Edit");
         assert!(window.query_by_role_and_label(Role::Button, undo).is_some(), "{undo}");
         key(&mut window, Modifiers::NONE, Key::Escape);

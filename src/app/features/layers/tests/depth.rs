@@ -37,8 +37,8 @@ fn a_grid_of_heights_gives_sizes_and_the_depths_in_files() {
     let file = folder.join("heights.asc");
     fs::write(&file, heights()).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(FileCommand::New));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
     assert_eq!(
         (sizes(&window).positive, sizes(&window).rule),
@@ -56,7 +56,7 @@ fn a_grid_of_heights_gives_sizes_and_the_depths_in_files() {
     type_into(&mut window, "To depth", "50");
     assert!(sizes(&window).between == [0.0, 50.0] && triangles(&window) < before);
     let exported = folder.join("mesh.14");
-    send(&mut window, Command::File(FileCommand::Export(exported.clone())));
+    send(&mut window, Command::from(FileCommand::Export(exported.clone())));
     let notice = wait_for_notice(&mut window);
     assert!(notice.contains("mesh.14"), "{notice}");
     let text = fs::read_to_string(exported).unwrap();
@@ -75,8 +75,8 @@ fn sizes_need_a_document_in_metres() {
     let file = folder("app-depth", "unit").join("heights.asc");
     fs::write(&file, heights()).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::LengthUnit(LengthUnit::Kilometre))));
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(EditCommand::Set(Setting::LengthUnit(LengthUnit::Kilometre))));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
     click_on(&mut window, Role::RadioButton, "Wavelength");
@@ -99,7 +99,7 @@ fn the_contour_of_a_layer_becomes_the_domain() {
     let head = "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 0.2\n";
     fs::write(&file, head.to_owned() + &rows.join("\n")).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| active(window).name == "bay.asc");
     let domain = |window: &Window| settings(window).domain.clone();
     let before = domain(&window);
@@ -109,7 +109,7 @@ fn the_contour_of_a_layer_becomes_the_domain() {
     let rings: Vec<_> = found.region().unwrap().rings().collect();
     assert_eq!((rings.len(), found.bounds), (2, Rect::new(DVec2::ZERO, DVec2::ONE)));
     assert_eq!(notice(&window), "The domain was replaced: it is the contour of bay.asc.");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(domain(&window), before);
     type_into(&mut window, "Smallest island", "0.05");
     click_button(&mut window, "Use the contour as the domain");
@@ -127,7 +127,7 @@ fn pixels_without_a_value_that_become_land_are_told() {
     let head = "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 0.2\nNODATA_value -1\n";
     fs::write(&file, head.to_owned() + &rows.join("\n")).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| active(window).name == "bay.asc");
     begin_contour(&mut window);
     step_until(&mut window, |window| notice(window).contains("was replaced"));
@@ -142,7 +142,7 @@ fn pixels_without_a_value_that_become_land_are_told() {
 #[test]
 fn straits_are_found_again_when_the_outline_changes() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     let before = triangles(&window);
     click_button(&mut window, "Add layer");
     click_button(&mut window, "straits of the domain");
@@ -161,9 +161,9 @@ fn straits_are_found_again_when_the_outline_changes() {
     let rings = domain.region().unwrap().polygons()[0][0].clone();
     domain = meshbrush_core::domain::Domain::of_polygons(&[vec![rings]]).unwrap();
     let count = entries(&window);
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Domain(domain))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::Domain(domain))));
     assert!(found(&window) != first && entries(&window) > count, "without islands there are other straits");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert!(found(&window) == first);
 }
 
@@ -178,13 +178,13 @@ fn the_overlays_of_depths_have_the_colours_of_their_legends() {
     let file = folder.join("heights.asc");
     fs::write(&file, heights()).unwrap();
     let mut window = drawn_window();
-    send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Depth)));
+    send(&mut window, Command::from(FileCommand::New));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Depth)));
     assert!(window.query_by_label_contains("Legend: no layer of depths").is_some());
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
     for overlay in [FieldOverlay::Depth, FieldOverlay::DepthError] {
-        send(&mut window, Command::View(ViewCommand::SetOverlay(overlay)));
+        send(&mut window, Command::from(ViewCommand::SetOverlay(overlay)));
         window.hover_at(RESTING_PLACE);
         window.run();
         wait_for_jobs(&mut window);

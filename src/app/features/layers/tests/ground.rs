@@ -46,9 +46,9 @@ fn rule(window: &Window) -> DepthRule {
 /// Returns a window whose new document began with a grid, and what was said.
 fn begun_with(command: LayerCommand) -> (Window, String) {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     // For one frame: while the mesh follows, news fades.
-    window.state_mut().send(Command::Layer(command));
+    window.state_mut().send(Command::from(command));
     window.step();
     step_until(&mut window, |window| !notice(window).is_empty());
     let said = notice(&window);
@@ -126,8 +126,8 @@ fn depths_in_a_document_without_metres_say_what_they_lack() {
     let file = grid("degrees", [0.0, 0.0], 1.0, Some(LONLAT));
     for unit in [LengthUnit::None, LengthUnit::Degree] {
         let mut window = window_of(TALL);
-        send(&mut window, Command::Edit(EditCommand::Set(Setting::LengthUnit(unit))));
-        send(&mut window, Command::Layer(LayerCommand::OpenDepth(file.clone())));
+        send(&mut window, Command::from(EditCommand::Set(Setting::LengthUnit(unit))));
+        send(&mut window, Command::from(LayerCommand::OpenDepth(file.clone())));
         wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
         let said = wait_for_notice(&mut window);
         assert!(said.contains("asks for no sizes") && said.contains("“Depth of water”"), "{unit:?}: {said}");
@@ -139,7 +139,7 @@ fn depths_in_a_document_without_metres_say_what_they_lack() {
 fn the_way_to_metres_that_an_error_names_is_in_the_window() {
     let (mut window, _) = begun_with(LayerCommand::OpenDepth(grid("unit", [1e5, 1e5], 2e4, None)));
     assert_eq!(rule(&window), DepthRule::USUAL_WAVELENGTH);
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::LengthUnit(LengthUnit::Degree))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::LengthUnit(LengthUnit::Degree))));
     let problem = wait_for_notice(&mut window);
     assert!(problem.contains("“Domain in metres”") && problem.contains("in the window"), "{problem}");
     assert_eq!(settings(&window).unit, LengthUnit::None);
@@ -182,7 +182,7 @@ fn a_contour_without_an_open_side_is_told() {
     let header = "ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 0.2\n";
     fs::write(&file, header.to_owned() + &rows.join("\n")).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
     begin_contour(&mut window);
     step_until(&mut window, |window| notice(window).contains("Nothing of its boundary is open"));

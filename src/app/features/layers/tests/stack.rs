@@ -6,7 +6,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, InspectCommand, LayerCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand};
+use crate::app::features::inspection::InspectCommand;
+use crate::app::features::layers::LayerEditor;
 use crate::app::tests::{
     CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, click_button, document, entries, key,
     level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles, type_into,
@@ -70,7 +72,7 @@ fn layer(id: u32, window: &Window) -> &Layer {
 }
 
 fn add(window: &mut Window, kind: LayerKind) {
-    send(window, Command::Layer(LayerCommand::Add(Box::new(kind))));
+    send(window, Command::from(LayerCommand::Add(Box::new(kind))));
 }
 
 #[test]
@@ -143,7 +145,7 @@ fn a_mask_from_a_file_limits_a_layer_until_it_is_removed() {
     click_button(&mut window, "Remove mask");
     assert_eq!((active(&window).mask.is_none(), triangles(&window), entries(&window)), (true, before, 2));
     std::fs::write(&file, "{\"type\": \"Polygon\"").unwrap();
-    send(&mut window, Command::Layer(LayerCommand::OpenMask(file)));
+    send(&mut window, Command::from(LayerCommand::OpenMask(file)));
     wait_until(&mut window, |window| notice(window).contains("right.geojson"));
     assert!(active(&window).mask.is_none());
 }
@@ -155,7 +157,7 @@ fn a_layer_is_duplicated_with_its_paint_and_deleted() {
     assert_eq!(names(&window), ["Painted risk 2", "Painted risk", "Painted diameter", "Base"]);
     assert_eq!(active(&window).name, "Painted risk 2");
     let before = triangles(&window);
-    send(&mut window, Command::Layer(LayerCommand::Delete(LayerId(2))));
+    send(&mut window, Command::from(LayerCommand::Delete(LayerId(2))));
     assert_eq!(triangles(&window), before, "the copy asks for the same");
     click_button(&mut window, "Delete layer");
     assert_eq!(names(&window), ["Painted diameter", "Base"]);
@@ -275,7 +277,7 @@ fn a_locked_layer_keeps_its_parameters_its_paint_and_its_place_in_the_stack() {
     click_button(&mut window, "Delete layer");
     click_button(&mut window, "Clear this layer");
     key(&mut window, Modifiers::SHIFT, Key::Delete);
-    send(&mut window, Command::Edit(EditCommand::ClearPaint));
+    send(&mut window, Command::from(EditCommand::ClearPaint));
     assert_eq!((settings(&window), triangles(&window)), (&before, painted));
     click_on(&mut window, Role::CheckBox, "Painted risk locked");
     choose(&mut window, "Layer", "Clear the selected layer");
@@ -337,7 +339,7 @@ fn another_selected_formula_layer_shows_its_own_formula() {
 #[test]
 fn a_raster_layer_shows_its_file_its_pixels_and_how_it_is_read() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(meshbrush_core::document::Example::Terrain)));
+    send(&mut window, Command::from(FileCommand::OpenExample(meshbrush_core::document::Example::Terrain)));
     select(&mut window, "Base");
     assert!(value_of(&window, Role::Definition, "Pixels").contains('×'));
     assert!(!value_of(&window, Role::Definition, "File").is_empty());
@@ -384,9 +386,9 @@ fn the_brush_paints_on_the_selected_layer_and_its_choice_selects_one() {
     let is_painted =
         |window: &Window, id| document(window).paint().get(id).is_some_and(|raster| !raster.is_blank());
     assert!(is_painted(&window, new));
-    send(&mut window, Command::Brush(BrushCommand::Kind(PaintKind::Diameter)));
+    send(&mut window, Command::from(BrushCommand::Kind(PaintKind::Diameter)));
     assert_eq!(active(&window).name, "Painted diameter");
-    send(&mut window, Command::Brush(BrushCommand::Kind(PaintKind::Risk)));
+    send(&mut window, Command::from(BrushCommand::Kind(PaintKind::Risk)));
     assert_eq!(active(&window).id, new, "the highest of that quantity");
     select(&mut window, "Painted diameter");
     assert_eq!(window.state().tools().kind, PaintKind::Diameter, "and a layer chooses what is painted");
@@ -414,16 +416,16 @@ fn status_bar_and_inspector_name_the_layer_that_decides() {
     assert_eq!(value_of(&window, Role::Definition, "by"), "Painted risk");
     move_to(&mut window, FREE);
     assert_eq!(value_of(&window, Role::Definition, "by"), "Base");
-    send(&mut window, Command::Inspect(InspectCommand::Query(PAINTED)));
+    send(&mut window, Command::from(InspectCommand::Query(PAINTED)));
     assert_eq!(value_of(&window, Role::Definition, "Decided by"), "Painted risk");
     let asked = |window: &Window, layer: &str| value_of(window, Role::Definition, layer);
     assert_eq!(asked(&window, "Painted diameter"), "nothing");
     assert_eq!(asked(&window, "Base"), "0.2");
     let risk: f64 = asked(&window, "Painted risk").parse().unwrap();
     assert!(risk < 0.1, "{risk}");
-    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.95, 0.95))));
+    send(&mut window, Command::from(InspectCommand::Query(dvec2(0.95, 0.95))));
     assert!(window.query_by_label("Through gradation from").is_none());
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(0.5)))));
+    send(&mut window, Command::from(EditCommand::Set(Setting::Gradation(Some(0.5)))));
     assert_eq!(value_of(&window, Role::Definition, "Decided by"), "Painted risk");
     assert!(window.query_by_label("Through gradation from").is_some());
     assert_eq!(asked(&window, "Painted risk"), "nothing", "it asks for nothing at the point itself");
@@ -442,8 +444,9 @@ fn the_overlay_of_deciding_layers_has_a_legend_and_a_dot_per_row() {
 #[test]
 fn every_row_gets_a_picture_of_what_its_layer_asks_for() {
     let mut window = window_of(TALL);
-    let has =
-        |window: &Window, id: u32| window.state().features.layers.pictures.texture(LayerId(id)).is_some();
+    let has = |window: &Window, id: u32| {
+        window.state().features.get::<LayerEditor>().pictures.texture(LayerId(id)).is_some()
+    };
     wait_until(&mut window, |window| (0..3).all(|id| has(window, id)));
     add(&mut window, LayerKind::constant(0.1));
     wait_until(&mut window, |window| has(window, 3));
@@ -454,7 +457,7 @@ fn the_area_of_a_mask_is_that_on_the_earth() {
     let mut window = window_of(TALL);
     let ring = [[0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 1.0]].map(glam::DVec2::from).to_vec();
     let (id, mask) = (active(&window).id, Mask::new(&[vec![ring]]).unwrap());
-    send(&mut window, Command::Layer(LayerCommand::Mask(id, Some(mask))));
+    send(&mut window, Command::from(LayerCommand::Mask(id, Some(mask))));
     assert!(value_of(&window, Role::Definition, "Mask").starts_with("0.5"));
     // In this plane, lengths are half of those on the Earth.
     let projection = "+proj=tmerc +lon_0=15 +k_0=0.5".parse().ok();

@@ -7,9 +7,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::depth::click_on;
-use crate::app::command::{
-    BrushCommand, Command, DomainCommand, EditCommand, FileCommand, LayerCommand, ViewCommand,
-};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
+use crate::app::features::domain::DomainCommand;
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into, value_of,
@@ -43,8 +42,8 @@ fn the_mesh_follows_an_error_or_a_number_of_triangles() {
     let header = "ncols 65\nnrows 65\nxllcorner -5\nyllcorner -5\ncellsize 10\n";
     fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
+    send(&mut window, Command::from(FileCommand::New));
+    send(&mut window, Command::from(LayerCommand::OpenSurface(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
     let bounds = settings(&window).domain.bounds;
     assert_eq!([bounds.min.x, bounds.max.y], [0.0, 640.0], "nodes are at the centres of pixels");
@@ -62,7 +61,7 @@ fn the_mesh_follows_an_error_or_a_number_of_triangles() {
     type_into(&mut window, "Most triangles", &within.to_string());
     wait_until(&mut window, |window| (2.0..=5.0).contains(&error(window)));
     assert!(triangles(&window) <= within && triangles(&window) > coarse);
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
     wait_for_jobs(&mut window);
     assert!(window.query_by_label_contains("Legend: surface error").is_some());
     // Fewer triangles than the coarse grid has.
@@ -73,15 +72,15 @@ fn the_mesh_follows_an_error_or_a_number_of_triangles() {
 #[test]
 fn the_error_of_a_surface_is_said_to_be_measured_until_it_is() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     wait_for_jobs(&mut window);
     window.state().jobs.hold();
     let source = SurfaceSource::Formula(Formula::parse("sin(9 * x)").unwrap());
     let surface = Surface { source, goal: SurfaceGoal::Within(0.05), norm: SurfaceNorm::Largest };
     let mut layers = settings(&window).layers.clone();
     layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Layers(layers))));
-    window.state_mut().send(Command::Layer(LayerCommand::Select(LayerId(70))));
+    window.state_mut().send(Command::from(EditCommand::Set(Setting::Layers(layers))));
+    window.state_mut().send(Command::from(LayerCommand::Select(LayerId(70))));
     window.run_steps(20);
     assert_eq!(value_of(&window, Role::Definition, "Error"), "being measured");
 }
@@ -89,30 +88,30 @@ fn the_error_of_a_surface_is_said_to_be_measured_until_it_is() {
 #[test]
 fn a_painted_error_counts_in_place_of_that_of_the_surface() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     let bounds = settings(&window).domain.bounds;
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::usual_surface(&bounds)))));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::usual_surface(&bounds)))));
     wait_for_jobs(&mut window);
     let before = triangles(&window);
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Error)))));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Error)))));
     assert_eq!(window.state().tools().kind, PaintKind::Error, "the layer chooses what is painted");
     let SurfaceGoal::Within(own) = settings(&window).surfaces().next().unwrap().1.goal else {
         panic!("an error")
     };
-    send(&mut window, Command::Brush(BrushCommand::Error(0.05 * own)));
-    send(&mut window, Command::Brush(BrushCommand::BeginStroke(bounds.center())));
-    send(&mut window, Command::Brush(BrushCommand::EndStroke));
+    send(&mut window, Command::from(BrushCommand::Error(0.05 * own)));
+    send(&mut window, Command::from(BrushCommand::BeginStroke(bounds.center())));
+    send(&mut window, Command::from(BrushCommand::EndStroke));
     wait_for_jobs(&mut window);
     let painted = triangles(&window);
     assert!(painted > before, "{painted} {before}");
     // The brush picks what is allowed here.
-    send(&mut window, Command::Brush(BrushCommand::Error(123.0)));
-    send(&mut window, Command::Brush(BrushCommand::Pick(bounds.center())));
+    send(&mut window, Command::from(BrushCommand::Error(123.0)));
+    send(&mut window, Command::from(BrushCommand::Pick(bounds.center())));
     assert!((window.state().tools().error / (0.05 * own) - 1.0).abs() < 1e-6);
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
     wait_for_jobs(&mut window);
     assert!(window.query_by_label_contains("−100 %").is_some(), "errors differ by place");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     wait_for_jobs(&mut window);
     assert_eq!(triangles(&window), before);
 }
@@ -125,8 +124,8 @@ fn the_area_with_values_becomes_the_domain() {
     let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n";
     fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
+    send(&mut window, Command::from(FileCommand::New));
+    send(&mut window, Command::from(LayerCommand::OpenSurface(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
     wait_for_jobs(&mut window);
     let shown = window.query_by_label_contains("Without a value").is_some();
@@ -136,7 +135,7 @@ fn the_area_with_values_becomes_the_domain() {
     wait_until(&mut window, |window| settings(window).domain.region().is_some());
     wait_for_jobs(&mut window);
     assert!(window.query_by_label_contains("Without a value").is_none());
-    send(&mut window, Command::Domain(DomainCommand::UseValues(id)));
+    send(&mut window, Command::from(DomainCommand::UseValues(id)));
     wait_for_jobs(&mut window);
 }
 
@@ -148,14 +147,14 @@ fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
     let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
     fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
     let mut window = drawn_window();
-    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::from(FileCommand::New));
     wait_for_jobs(&mut window);
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     assert!(window.query_by_label_contains("Legend: no layer of a surface").is_some());
-    send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
+    send(&mut window, Command::from(LayerCommand::OpenSurface(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
     // A document of the extent of the surface has taken the place of the empty one.
-    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     window.hover_at(RESTING_PLACE);
     window.run();
     wait_for_jobs(&mut window);

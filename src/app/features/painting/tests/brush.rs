@@ -6,22 +6,22 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{BrushCommand, Command, EditCommand, LayerCommand};
-use crate::app::features::painting::{BRUSH, BrushMode, PenEffect};
+use crate::app::features::painting::BRUSH;
 use crate::app::tests::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen, open_popup,
     painted, press, price_tag, release, send, settings, stroke, triangles, value_of, window, with_base,
 };
-use crate::app::tools::PaintKind;
-use crate::app::widgets::format;
+use crate::app::tools::{BrushMode, PaintKind, PenEffect};
 use meshbrush_core::field::RiskToDiameter as _;
 use meshbrush_core::layers::LayerKind;
+use meshbrush_ui::widgets::format;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
     painted(window, PAINTED_RISK, point)
 }
 
 fn brush(window: &mut Window, command: BrushCommand) {
-    send(window, Command::Brush(command));
+    send(window, Command::from(command));
 }
 
 fn label(window: &Window, start: &str) -> Option<String> {
@@ -132,8 +132,8 @@ fn the_tag_says_why_a_dab_changes_nothing() {
     brush(&mut window, BrushCommand::Diameter(0.02));
     assert_eq!(hover(&mut window, in_band).unwrap(), "no change: “Painted risk” decides here");
     let base = with_base(&window, LayerKind::constant(0.01));
-    send(&mut window, Command::Edit(EditCommand::Set(base)));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(EditCommand::Set(base)));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     assert_eq!(hover(&mut window, FREE).unwrap(), "no change: “Base” decides here");
 }
 
@@ -142,7 +142,7 @@ fn tag_and_hint_say_that_there_is_no_layer_to_paint_on() {
     let mut window = window();
     let layer = settings(&window).layers.iter().rfind(|layer| layer.paints().is_some()).unwrap().id;
     let mut tag = |command, hint: &str| {
-        send(&mut window, Command::Layer(command));
+        send(&mut window, Command::from(command));
         let tag = hover(&mut window, FREE).unwrap();
         assert!(window.query_by_label_contains(hint).is_some(), "{hint}");
         tag
@@ -152,7 +152,7 @@ fn tag_and_hint_say_that_there_is_no_layer_to_paint_on() {
     assert!(tag(LayerCommand::Lock(layer, false), "Drag to paint risk").starts_with('+'));
     let hidden = tag(LayerCommand::Show(layer, false), "a click offers to show it");
     assert_eq!(hidden, "no change: “Painted risk” is hidden");
-    send(&mut window, Command::Layer(LayerCommand::Delete(layer)));
+    send(&mut window, Command::from(LayerCommand::Delete(layer)));
     assert_eq!(window.state().tools().kind, PaintKind::Diameter, "the layer that is selected now");
     brush(&mut window, BrushCommand::Kind(PaintKind::Risk));
     let deleted = hover(&mut window, FREE);
@@ -173,13 +173,13 @@ fn shift_shows_the_price_of_the_line_before_it_is_painted() {
     let before = triangles(&window) as i64;
     click(&mut window, end, Modifiers::SHIFT);
     let change = triangles(&window) as i64 - before;
-    assert_eq!(tag, format!("+{} triangles", crate::app::widgets::format::count(change as u64)));
+    assert_eq!(tag, format!("+{} triangles", meshbrush_ui::widgets::format::count(change as u64)));
 }
 
 #[test]
 fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
     let mut window = window();
-    send(&mut window, Command::Edit(EditCommand::ClearPaint));
+    send(&mut window, Command::from(EditCommand::ClearPaint));
     open_popup(&mut window, "More options");
     for (name, menu) in [("Mirror x", "Mirror y"), ("Mirror y", "Mirror x")] {
         window.get_by_role_and_label(Role::CheckBox, name).click();
@@ -191,7 +191,7 @@ fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
     let tag = hover(&mut window, at).unwrap();
     stroke(&mut window, at, at);
     let change = triangles(&window) - before;
-    assert_eq!(tag, format!("+{} triangles", crate::app::widgets::format::count(change as u64)));
+    assert_eq!(tag, format!("+{} triangles", meshbrush_ui::widgets::format::count(change as u64)));
     for image in [dvec2(0.8, 0.3), dvec2(0.2, 0.7), dvec2(0.8, 0.7)] {
         assert_eq!(risk_at(&window, image), risk_at(&window, at));
     }
@@ -201,7 +201,7 @@ fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
 #[test]
 fn smoothing_ignores_a_trembling_hand_and_ends_where_the_pointer_does() {
     let mut window = window();
-    send(&mut window, Command::Edit(EditCommand::ClearPaint));
+    send(&mut window, Command::from(EditCommand::ClearPaint));
     brush(&mut window, BrushCommand::Radius(0.01));
     brush(&mut window, BrushCommand::Smoothing(0.5));
     let start = dvec2(0.2, 0.5);
@@ -219,7 +219,7 @@ fn smoothing_ignores_a_trembling_hand_and_ends_where_the_pointer_does() {
 #[test]
 fn the_pressure_of_a_pen_changes_the_radius_or_the_strength() {
     let mut window = window();
-    send(&mut window, Command::Edit(EditCommand::ClearPaint));
+    send(&mut window, Command::from(EditCommand::ClearPaint));
     let changes = "What the pressure of the pen changes";
     open_popup(&mut window, "More options");
     assert!(window.query_by_role_and_label(Role::RadioGroup, changes).is_none(), "no pen yet");

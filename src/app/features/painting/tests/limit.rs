@@ -11,7 +11,7 @@ use crate::app::tests::{
     settings, stroke, triangles, type_into, value_of, window,
 };
 use crate::app::tools::PaintKind;
-use crate::app::widgets::format;
+use meshbrush_ui::widgets::format;
 
 const LOWER: &str = "Lower the smallest diameter";
 const LOWER_BOTH: &str = "Lower it and the risk curve";
@@ -20,8 +20,8 @@ const LOWER_BOTH: &str = "Lower it and the risk curve";
 fn window_painted_finer() -> (Window, f64) {
     let mut window = window();
     let smallest = settings(&window).transfer.h_min;
-    send(&mut window, Command::Brush(BrushCommand::Kind(PaintKind::Diameter)));
-    send(&mut window, Command::Brush(BrushCommand::Radius(0.01)));
+    send(&mut window, Command::from(BrushCommand::Kind(PaintKind::Diameter)));
+    send(&mut window, Command::from(BrushCommand::Radius(0.01)));
     type_into(&mut window, "Diameter value", &format!("{}", smallest / 3.0));
     stroke(&mut window, FREE, FREE);
     (window, smallest)
@@ -59,7 +59,7 @@ fn the_brush_paints_below_the_smallest_diameter_and_offers_to_lower_it() {
         .field()
         .target_at(window.state().session().document().paint(), dvec2(0.3, 0.5));
     assert_eq!(still, at_risk, "where risk decides, nothing changes");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!((triangles(&window), settings(&window).transfer), before, "one gesture");
 }
 
@@ -67,8 +67,8 @@ fn the_brush_paints_below_the_smallest_diameter_and_offers_to_lower_it() {
 fn the_offer_is_beside_the_brush_however_large_that_is() {
     for zoom in [1.0, 40.0] {
         let (mut window, _) = window_painted_finer();
-        send(&mut window, Command::View(ViewCommand::LookAt(FREE)));
-        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        send(&mut window, Command::from(ViewCommand::LookAt(FREE)));
+        send(&mut window, Command::from(ViewCommand::Zoom(zoom)));
         let offer = window.get_by_role_and_label(Role::Button, LOWER).rect();
         let apart = offer.left() - on_screen(&window, FREE).x;
         assert!((5.0..200.0).contains(&apart), "{apart} points from the middle of the brush");
@@ -104,7 +104,7 @@ fn the_offer_can_be_declined_and_goes_with_what_was_painted() {
     let strokes = entries(&window);
     stroke(&mut window, FREE + dvec2(0.03, 0.0), FREE + dvec2(0.03, 0.0));
     assert!(offers(&window, LOWER) && entries(&window) == strokes + 1);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert!(!offers(&window, LOWER), "what was painted is gone");
 }
 
@@ -117,7 +117,7 @@ fn the_limit_is_named_where_it_decides() {
     assert_eq!(value_of(&window, Role::Definition, "by"), "smallest diameter");
     move_to(&mut window, dvec2(0.3, 0.5));
     assert_eq!(value_of(&window, Role::Definition, "by"), "Painted risk");
-    send(&mut window, Command::View(ViewCommand::Fit));
+    send(&mut window, Command::from(ViewCommand::Fit));
     key(&mut window, Modifiers::NONE, Key::Q);
     crate::app::tests::click(&mut window, FREE, Modifiers::NONE);
     assert_eq!(value_of(&window, Role::Definition, "Decided by"), "smallest diameter");

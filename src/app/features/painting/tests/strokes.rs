@@ -36,8 +36,8 @@ fn the_eraser_coarsens_back() {
     stroke(&mut window, FREE, FREE);
     assert_ne!(fingerprint(&window), before);
     key(&mut window, Modifiers::NONE, Key::E);
-    window.state_mut().send(Command::Brush(BrushCommand::Hardness(1.0)));
-    send(&mut window, Command::Brush(BrushCommand::Radius(0.09)));
+    window.state_mut().send(Command::from(BrushCommand::Hardness(1.0)));
+    send(&mut window, Command::from(BrushCommand::Radius(0.09)));
     stroke(&mut window, FREE, FREE);
     assert_eq!(fingerprint(&window), before, "all of the paint is gone, and so is all that it refined");
 }
@@ -69,7 +69,7 @@ fn a_painted_diameter_is_the_diameter_of_the_mesh() {
     let mut window = window();
     key(&mut window, Modifiers::NONE, Key::T);
     assert_eq!(window.state().tools().kind, PaintKind::Diameter);
-    send(&mut window, Command::Brush(BrushCommand::Diameter(0.02)));
+    send(&mut window, Command::from(BrushCommand::Diameter(0.02)));
     stroke(&mut window, FREE, FREE);
     let mesh = window.state().session().mesh();
     let diameter = mesh.diameter(level_at(&window, FREE));

@@ -5,9 +5,9 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{CostKind, PathCommand};
 use crate::app::kit::{FormulaRow, FrameState, end_gesture_when_released};
-use crate::app::widgets::{NumberRow, segmented};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
+use meshbrush_ui::widgets::{NumberRow, segmented};
 
 /// The largest weight.
 pub const MOST_WEIGHT: f64 = 1e6;
@@ -18,7 +18,7 @@ pub(super) fn rows(ui: &mut Ui, state: &FrameState<'_>, cost: &PathCost, command
     let mut kind = CostKind::of(cost);
     let kinds = [(CostKind::Weights, "Weights"), (CostKind::Formula, "Formula")];
     if segmented(ui, "What paths cost", &mut kind, &kinds).changed() {
-        commands.push(Command::Path(PathCommand::CostBy(kind)));
+        commands.push(Command::from(PathCommand::CostBy(kind)));
     }
     ui.add_space(4.0);
     match cost {
@@ -29,7 +29,7 @@ pub(super) fn rows(ui: &mut Ui, state: &FrameState<'_>, cost: &PathCost, command
             let row = FormulaRow { label: "Cost per length", hint: "1 + 10*risk", help };
             if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
                 let cost = PathCommand::Cost(PathCost::Formula(formula));
-                commands.extend([Command::Path(cost), Command::Edit(EditCommand::EndGesture)]);
+                commands.extend([Command::from(cost), Command::from(EditCommand::EndGesture)]);
             }
         }
     }
@@ -43,7 +43,7 @@ fn weight_rows(ui: &mut Ui, weights: Weights, commands: &mut Vec<Command>) {
     let row = NumberRow::new("Weight of risk", &mut new.risk).range(0.0..=MOST_WEIGHT);
     let by_risk = row.help("κ: what a unit of length costs more at risk 1.").show(ui);
     if new != weights {
-        commands.push(Command::Path(PathCommand::Cost(PathCost::Weighted(new))));
+        commands.push(Command::from(PathCommand::Cost(PathCost::Weighted(new))));
     }
     [by_length, by_risk].iter().for_each(|response| end_gesture_when_released(response, commands));
 }

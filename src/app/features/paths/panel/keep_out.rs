@@ -2,13 +2,12 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
-use crate::app::features::paths::KeepOutCommand;
-use crate::app::features::paths::OPEN_KEEP_OUT;
-use crate::app::features::paths::PathCommand;
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::paths::{KeepOutCommand, OPEN_KEEP_OUT, PathCommand};
+use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, button_rows, end_gesture_when_released};
-use crate::app::theme::metrics;
-use crate::app::widgets::{Icon, NumberRow, ToolButton, ValueRow};
+use meshbrush_ui::theme::metrics;
+use meshbrush_ui::widgets::{Icon, NumberRow, ToolButton, ValueRow};
 
 /// How far paths stay from the outline and from the regions.
 pub fn clearance_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -20,14 +19,14 @@ pub fn clearance_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Com
                 the rectangle around the domain do not count.";
     let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Path(PathCommand::Clearance(clearance)));
+        commands.push(Command::from(PathCommand::Clearance(clearance)));
     }
     end_gesture_when_released(&response, commands);
 }
 
 /// The regions with their areas, and what adds and removes them.
 pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let command = |command| Command::Path(PathCommand::KeepOut(command));
+    let command = |command| Command::from(PathCommand::KeepOut(command));
     for (number, region) in state.session.document().settings().paths.keep_out.iter().enumerate() {
         let area = area_text(ui, state, &region.mask, 4);
         ui.push_id(number, |ui| {
@@ -46,8 +45,8 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     let can_take_mask = KeepOutCommand::mask_to_add(state.session).is_some();
     let rows = [
-        [("Draw keep-out region", true, Command::Region(RegionCommand::Target(RegionTarget::KeepOut)))],
-        [("Add keep-out region…", true, Command::File(FileCommand::Ask(&OPEN_KEEP_OUT)))],
+        [("Draw keep-out region", true, Command::from(RegionCommand::Target(RegionTarget::KeepOut)))],
+        [("Add keep-out region…", true, Command::from(FileCommand::Ask(&OPEN_KEEP_OUT)))],
         [("Use the layer's mask", can_take_mask, command(KeepOutCommand::AddMask))],
     ];
     button_rows(ui, rows, commands);

@@ -8,16 +8,16 @@ mod others;
 use eframe::egui::{RichText, Ui};
 
 use crate::app::command::{Command, EditCommand};
-use crate::app::features::paths::{FoundPath, PathCommand, ShownPath};
+use crate::app::features::paths::{FoundPath, PathCommand, Paths, ShownPath};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{
-    Icon, NumberRow, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view,
-};
 use meshbrush_core::document::PathPlan;
 use meshbrush_core::earth::{Speed, hours_and_minutes};
 use meshbrush_mesh::text::{LengthUnit, percent_above};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{
+    Icon, NumberRow, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view,
+};
 
 pub use cost::MOST_WEIGHT;
 pub use others::OTHER_PATHS;
@@ -49,7 +49,7 @@ const IN_DEGREES: &str = "The length in degrees, as if one of longitude were as 
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
-    let route = state.features.paths.tool.route_in(plan);
+    let route = state.feature::<Paths>().tool.route_in(plan);
     let note = match plan.routes.len() {
         0 | 1 => String::new(),
         count => format!("{} of {count}", route.map_or(0, |route| route + 1)),
@@ -60,7 +60,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             return empty_state(ui, Icon::PATH, "No path", text);
         };
         name_row(ui, plan, route, commands);
-        let shown = state.features.paths.finder.shown().get(route);
+        let shown = state.feature::<Paths>().finder.shown().get(route);
         if let Some(problem) = shown.and_then(|shown| shown.problem.as_ref()) {
             let text = RichText::new(format!("{problem} The path that is shown is outdated."));
             ui.label(text.font(font::body()).color(tokens(ui).danger));
@@ -93,8 +93,8 @@ fn show_cost(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if plan.routes.is_empty() {
             return;
         }
-        let is_selected = state.features.paths.tool.selected_in(plan).is_some();
-        let path = |command| Command::Path(command);
+        let is_selected = state.feature::<Paths>().tool.selected_in(plan).is_some();
+        let path = |command| Command::from(command);
         let rows = [[
             ("Delete place", is_selected, path(PathCommand::Delete)),
             ("Delete all paths", true, path(PathCommand::DeleteAll)),
@@ -111,10 +111,10 @@ fn name_row(ui: &mut Ui, plan: &PathPlan, route: usize, commands: &mut Vec<Comma
     let row = TextRow::new("Name", &mut name).hint(&usual);
     let response = row.help("The name of the path, beside its ends on the canvas.").show(ui);
     if response.changed() {
-        commands.push(Command::Path(PathCommand::Name(name)));
+        commands.push(Command::from(PathCommand::Name(name)));
     }
     if response.lost_focus() {
-        commands.push(Command::Edit(EditCommand::EndGesture));
+        commands.push(Command::from(EditCommand::EndGesture));
     }
     ui.add_space(4.0);
 }
@@ -166,10 +166,10 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath) {
 /// Asks for a speed, and shows the time of the path, where lengths in metres are known.
 fn time_rows(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<Command>) {
     let Some(metres) = found.metres else { return };
-    let mut knots = state.features.paths.tool.speed;
+    let mut knots = state.feature::<Paths>().tool.speed;
     let row = NumberRow::new("Speed", &mut knots).range(0.0..=MOST_KNOTS).default(0.0).unit("kn");
     if row.help("The speed for the time of the path, in knots; 0: no time is shown.").show(ui).changed() {
-        commands.push(Command::Path(PathCommand::Speed(knots)));
+        commands.push(Command::from(PathCommand::Speed(knots)));
     }
     if let Some(speed) = Speed::from_knots(knots) {
         let help = "The time that the path takes at this speed, in hours and minutes.";
@@ -192,22 +192,22 @@ fn former_row(
                 cost above the better one and its length. A click leads the path along it, by a place in between.";
     let row = ValueRow::new("Path before the proof", &value).help(help);
     if row.link().show(ui).clicked() {
-        commands.push(Command::Path(PathCommand::KeepFormer(route)));
+        commands.push(Command::from(PathCommand::KeepFormer(route)));
     }
 }
 
 /// Asks for the width of the interval, and says how far the proof is.
 fn proof(ui: &mut Ui, state: &FrameState<'_>, shown: &ShownPath, commands: &mut Vec<Command>) {
-    let mut width = state.features.paths.finder.width();
+    let mut width = state.feature::<Paths>().finder.width();
     if dropdown_row(ui, "Prove within", &mut width, &WIDTHS).changed() {
-        commands.push(Command::Path(PathCommand::Width(width)));
+        commands.push(Command::from(PathCommand::Width(width)));
     }
     remark(ui, &state_of(state, shown));
 }
 
 /// Returns a sentence that says how far the work on a path is.
 fn state_of(state: &FrameState<'_>, shown: &ShownPath) -> String {
-    let finder = &state.features.paths.finder;
+    let finder = &state.feature::<Paths>().finder;
     let found = shown.found.as_ref();
     match (finder.is_current(state.session), finder.is_proving()) {
         (false, _) => "The path is being found.".to_owned(),
@@ -224,8 +224,8 @@ fn state_of(state: &FrameState<'_>, shown: &ShownPath) -> String {
 fn profile_view(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     let distance = plot_view(ui, "Risk along the path", &profile(state, found), HEIGHT);
-    if distance != state.features.paths.tool.shown_distance {
-        commands.push(Command::Path(PathCommand::ShowDistance(distance)));
+    if distance != state.feature::<Paths>().tool.shown_distance {
+        commands.push(Command::from(PathCommand::ShowDistance(distance)));
     }
     ui.add_space(4.0);
 }

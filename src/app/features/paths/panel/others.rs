@@ -5,15 +5,15 @@ use eframe::egui::Ui;
 
 use crate::app::command::Command;
 use crate::app::features::paths::{
-    AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand,
+    AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand, Paths,
 };
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::widgets::{
-    ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
-};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{FrontPoint, Solution};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_ui::widgets::{
+    ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
+};
 
 /// The panel of other paths, shown as long as there is a path.
 pub static OTHER_PATHS: Panel = Panel { name: "other paths", tab: Tab::Paths, place: 1, show };
@@ -24,10 +24,11 @@ const HEIGHT: f32 = 190.0;
 const FRONT: &str = "Length against risk";
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(route) = state.features.paths.tool.route_in(&state.session.document().settings().paths) else {
+    let Some(route) = state.feature::<Paths>().tool.route_in(&state.session.document().settings().paths)
+    else {
         return;
     };
-    let shown = state.features.paths.finder.shown().get(route);
+    let shown = state.feature::<Paths>().finder.shown().get(route);
     let Some(found) = shown.and_then(|shown| shown.found.as_ref()) else { return };
     let mut sent = Vec::new();
     Section::new("Other paths").show(ui, |ui| {
@@ -35,11 +36,11 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         alternatives(ui, state, &mut sent);
         front(ui, state, found, &mut sent);
     });
-    commands.extend(sent.into_iter().map(Command::Path));
+    commands.extend(sent.into_iter().map(Command::from));
 }
 
 fn corridor(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>) {
-    let corridor = &state.features.paths.finder.corridor;
+    let corridor = &state.feature::<Paths>().finder.corridor;
     if !corridor.is_on {
         return;
     }
@@ -53,14 +54,14 @@ fn corridor(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>
 }
 
 fn alternatives(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>) {
-    let finder = &state.features.paths.finder.alternatives;
+    let finder = &state.feature::<Paths>().finder.alternatives;
     if !finder.is_on {
         return;
     }
     if !finder.paths().is_empty() {
         remark(ui, "Cost above the best · length · accumulated risk");
     }
-    let is_current = state.features.paths.finder.is_current(state.session);
+    let is_current = state.feature::<Paths>().finder.is_current(state.session);
     let mut pointed = None;
     for (number, path) in finder.paths().iter().enumerate() {
         let row = alternative_row(ui, state, (number, path), is_current);
@@ -91,7 +92,7 @@ fn alternative_row(
     (number, path): (usize, &Solution),
     is_current: bool,
 ) -> eframe::egui::Response {
-    let percent = format::significant(100.0 * state.features.paths.finder.alternatives.excess(path), 2);
+    let percent = format::significant(100.0 * state.feature::<Paths>().finder.alternatives.excess(path), 2);
     let length = format::length(path.length_on_ground, state.unit());
     let risk = format::significant(path.risk, 3);
     let label = format!("Alternative {}", number + 1);
@@ -102,7 +103,7 @@ fn alternative_row(
 }
 
 fn front(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<PathCommand>) {
-    let finder = &state.features.paths.finder.front;
+    let finder = &state.feature::<Paths>().finder.front;
     let mut send = |command| commands.push(PathCommand::Front(command));
     let mut is_on = finder.is_on;
     if toggle_row(ui, "Front", &mut is_on).changed() {
@@ -152,7 +153,7 @@ fn tip_of(point: &FrontPoint, state: &FrameState<'_>) -> String {
 fn front_plot(state: &FrameState<'_>, found: &FoundPath) -> Plot {
     let place = |path: &Solution| [path.length_on_ground, path.risk];
     let front =
-        state.features.paths.finder.front.points().iter().map(|point| place(&point.solution)).collect();
+        state.feature::<Paths>().finder.front.points().iter().map(|point| place(&point.solution)).collect();
     Plot {
         title: FRONT.into(),
         x: Axis::new("Length", Scale::Linear).unit(state.unit().symbol()),

@@ -52,10 +52,10 @@ fn a_corridor_refines_along_the_path_stays_there_and_takes_it_again() {
     click_button(&mut window, "Take the current path again");
     wait_for_paths(&mut window);
     assert_eq!(corridor(&window).0.last(), Some(&settings(&window).paths.routes[0][1]));
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(corridor(&window).0, path);
-    send(&mut window, Command::Edit(EditCommand::Undo));
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(triangles(&window), before);
 }
 
@@ -63,8 +63,8 @@ fn a_corridor_refines_along_the_path_stays_there_and_takes_it_again() {
 fn without_a_current_path_there_is_no_corridor_and_a_sentence() {
     let mut window = window_with_path();
     let edits = entries(&window);
-    send(&mut window, Command::Path(PathCommand::DeleteAll));
-    send(&mut window, Command::Path(PathCommand::AddCorridor));
+    send(&mut window, Command::from(PathCommand::DeleteAll));
+    send(&mut window, Command::from(PathCommand::AddCorridor));
     assert!(notice(&window).contains("There is no path"), "{}", notice(&window));
     assert_eq!(entries(&window), edits + 1);
     assert!(window.query_by_label("Take the current path again").is_none());

@@ -53,9 +53,9 @@ fn a_formula_takes_the_place_of_the_weights_and_is_undone() {
     assert_eq!(formula(&window), "1 + 200*risk");
     wait_for_paths(&mut window);
     assert!(solution(&window).risk < before.risk && solution(&window).length > before.length);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(formula(&window), "1 + 10*risk");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(settings(&window).paths.cost, PathCost::default());
     wait_for_paths(&mut window);
     assert_eq!(solution(&window).points, before.points);

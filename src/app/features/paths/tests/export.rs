@@ -12,6 +12,7 @@ use glam::{DVec2, dvec2};
 use super::{GOAL, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::paths::PathCommand;
+use crate::app::features::paths::Paths;
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
     TALL, Window, click_button, folder, key, move_to, notice, open_menu, press, release, send, set, settings,
@@ -27,10 +28,10 @@ fn solution(window: &Window) -> Solution {
 
 /// Exports the path, and returns what the file contains.
 fn exported(window: &mut Window, file: &Path) -> Vec<u8> {
-    send(window, Command::Path(PathCommand::ExportAs(file.to_owned())));
+    send(window, Command::from(PathCommand::ExportAs(file.to_owned())));
     let notice = wait_for_notice(window);
     assert!(notice.starts_with("The path was written to "), "{notice}");
-    send(window, Command::Shell(ShellCommand::DismissNotice));
+    send(window, Command::from(ShellCommand::DismissNotice));
     fs::read(file).unwrap()
 }
 
@@ -39,10 +40,10 @@ fn text(bytes: Vec<u8>) -> String {
 }
 
 fn refused(window: &mut Window, file: &Path) -> String {
-    send(window, Command::Path(PathCommand::Export(file.to_owned())));
+    send(window, Command::from(PathCommand::Export(file.to_owned())));
     let sentence = wait_for_notice(window);
     assert!(!file.exists(), "{sentence}");
-    send(window, Command::Shell(ShellCommand::DismissNotice));
+    send(window, Command::from(ShellCommand::DismissNotice));
     sentence
 }
 
@@ -71,10 +72,10 @@ fn each_format_is_written() {
 fn the_table_is_that_of_the_command_line() {
     let (mut window, folder) = (window_with_path(), folder("app-path-export", "table"));
     let [project, here, there] = ["a.meshbrush", "here.csv", "there.csv"].map(|name| folder.join(name));
-    send(&mut window, Command::File(FileCommand::SaveTo(project.clone())));
+    send(&mut window, Command::from(FileCommand::SaveTo(project.clone())));
     assert!(wait_for_notice(&mut window).starts_with("Saved to "));
-    send(&mut window, Command::Shell(ShellCommand::DismissNotice));
-    send(&mut window, Command::Path(PathCommand::ExportTolerance(0.01)));
+    send(&mut window, Command::from(ShellCommand::DismissNotice));
+    send(&mut window, Command::from(PathCommand::ExportTolerance(0.01)));
     let places = settings(&window).paths.routes[0].clone();
     let [from, to] = [places[0], places[1]].map(|place| format!("{},{}", place.x, place.y));
     let [project, written] = [&project, &there].map(|file| file.to_str().unwrap());
@@ -98,7 +99,7 @@ fn the_panel_asks_for_file_and_tolerance() {
     exported(&mut window, &file);
     let all = lines(&file);
     type_into(&mut window, "Export tolerance", "0.02");
-    assert_eq!(window.state().features().paths.tool.export_tolerance, 0.02);
+    assert_eq!(window.state().features().get::<Paths>().tool.export_tolerance, 0.02);
     assert_eq!(unexplained(&window), [""; 0]);
     click_button(&mut window, "Export path…");
     // The ending is added.
@@ -115,8 +116,8 @@ fn an_outdated_path_is_not_exported() {
     let file = folder.join("path.csv");
     let cost = PathCost::Weighted(Weights { length: 1.0, risk: 3.0 });
     // Both in one frame.
-    window.state_mut().send(Command::Path(PathCommand::Cost(cost)));
-    window.state_mut().send(Command::Edit(EditCommand::EndGesture));
+    window.state_mut().send(Command::from(PathCommand::Cost(cost)));
+    window.state_mut().send(Command::from(EditCommand::EndGesture));
     let sentence = refused(&mut window, &file);
     assert_eq!(sentence, "The path is being found for the last edit. Export it again when that is done.");
     wait_for_paths(&mut window);

@@ -10,8 +10,7 @@ use glam::{DVec2, dvec2};
 
 use super::{GOAL, START, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::features::paths::KeepOutCommand;
-use crate::app::features::paths::PathCommand;
+use crate::app::features::paths::{KeepOutCommand, PathCommand};
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
     TALL, Window, active, choose, click_button, entries, notice, send, settings, show, type_into, wait_until,
@@ -63,8 +62,8 @@ fn a_region_from_a_file_is_avoided_undone_and_removed() {
     let mut window = window_with_path();
     // The shortest path.
     let cost = PathCost::Weighted(Weights { length: 1.0, risk: 0.0 });
-    send(&mut window, Command::Path(PathCommand::Cost(cost)));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(PathCommand::Cost(cost)));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     wait_for_paths(&mut window);
     let before = shown(&window)[0].found.as_ref().unwrap().solution.cost;
     assert!(enters_wall(&window));
@@ -79,10 +78,10 @@ fn a_region_from_a_file_is_avoided_undone_and_removed() {
     assert_eq!(unexplained(&window), [""; 0]);
     let around = shown(&window)[0].found.as_ref().unwrap().solution.clone();
     assert!(!enters_wall(&window) && around.lower > before, "{} {before}", around.lower);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     wait_for_paths(&mut window);
     assert_is_straight_again(&window, before);
-    send(&mut window, Command::Edit(EditCommand::Redo));
+    send(&mut window, Command::from(EditCommand::Redo));
     wait_for_paths(&mut window);
     assert!(!enters_wall(&window));
     click_button(&mut window, "Remove keep-out region");
@@ -101,7 +100,7 @@ fn a_certificate_knows_the_regions() {
     let paths = Arc::new(PathPlan { routes: vec![vec![START, GOAL]], cost, keep_out, ..PathPlan::default() });
     let settings = Settings { paths, ..Settings::for_domain("Wall".into(), domain) };
     let mut window = window_of(TALL);
-    send(&mut window, Command::Path(PathCommand::Width(0.15)));
+    send(&mut window, Command::from(PathCommand::Width(0.15)));
     send(&mut window, show(settings));
     wait_for_paths(&mut window);
     let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
@@ -117,7 +116,7 @@ fn a_region_around_the_start_keeps_the_last_path_and_says_why() {
     let before = shown(&window)[0].found.as_ref().unwrap().solution.points.clone();
     let around = [dvec2(-0.1, -0.1), dvec2(0.25, -0.1), dvec2(0.25, 0.3), dvec2(-0.1, 0.3)];
     let file = file("start", &around);
-    send(&mut window, Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(file))));
+    send(&mut window, Command::from(PathCommand::KeepOut(KeepOutCommand::Open(file))));
     wait_until(&mut window, |window| shown(window)[0].problem.is_some());
     assert_eq!(shown(&window)[0].found.as_ref().unwrap().solution.points, before);
     let sentence = window.query_by_label_contains("lies in a keep-out region").unwrap();
@@ -132,7 +131,7 @@ fn a_region_around_the_start_keeps_the_last_path_and_says_why() {
 fn the_mask_of_the_selected_layer_becomes_a_region_once() {
     let mut window = window_with_path();
     let layer = active(&window).id;
-    send(&mut window, Command::Layer(LayerCommand::Mask(layer, Some(wall()))));
+    send(&mut window, Command::from(LayerCommand::Mask(layer, Some(wall()))));
     click_button(&mut window, "Use the layer's mask");
     wait_for_paths(&mut window);
     assert!(!enters_wall(&window));
@@ -140,7 +139,7 @@ fn the_mask_of_the_selected_layer_becomes_a_region_once() {
     assert!(window.query_by_label(&name).is_some());
     click_button(&mut window, "Use the layer's mask");
     assert_eq!(buttons(&window), 1, "it is a region already");
-    send(&mut window, Command::Layer(LayerCommand::Mask(layer, None)));
+    send(&mut window, Command::from(LayerCommand::Mask(layer, None)));
     assert_eq!(buttons(&window), 1, "a region does not change with the mask");
 }
 
@@ -148,7 +147,7 @@ fn the_mask_of_the_selected_layer_becomes_a_region_once() {
 fn a_file_that_is_no_region_is_refused_with_its_name() {
     let mut window = window_with_path();
     let (flat, edits) = (file("flat", &[WALL[0], WALL[1], WALL[0].midpoint(WALL[1])]), entries(&window));
-    send(&mut window, Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(flat))));
+    send(&mut window, Command::from(PathCommand::KeepOut(KeepOutCommand::Open(flat))));
     wait_until(&mut window, |window| notice(window).contains("wall.geojson"));
     assert_eq!((buttons(&window), entries(&window)), (0, edits));
 }

@@ -15,9 +15,9 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::features::paths::PATH;
-use crate::app::features::paths::PathCommand;
+use crate::app::features::paths::Paths;
 use crate::app::features::paths::work::ShownPath;
+use crate::app::features::paths::{PATH, PathCommand};
 use crate::app::kit::Tab;
 use crate::app::tests::{
     TALL, Window, click, key, move_to, open_tab, press, release, send, set, settings, stroke, wait_until,
@@ -48,7 +48,7 @@ pub(super) fn wait_for_paths(window: &mut Window) {
 fn window_with_path() -> Window {
     let mut window = window_of(TALL);
     set(&mut window, Setting::SmallestDiameter(0.03));
-    send(&mut window, Command::Path(PathCommand::Width(1.0)));
+    send(&mut window, Command::from(PathCommand::Width(1.0)));
     key(&mut window, Modifiers::NONE, Key::P);
     assert_eq!(window.state().tools().tool, &PATH);
     click(&mut window, START, Modifiers::NONE);
@@ -74,7 +74,7 @@ fn two_clicks_make_a_path_whose_bound_is_proved() {
     assert!(before > 0.02 && before < 0.3, "{before}");
     assert!(row(&window, "Proved").contains("of optimal"), "{}", row(&window, "Proved"));
     assert!(window.query_by_label("Risk along the path").is_some());
-    send(&mut window, Command::Path(PathCommand::Width(before / 2.0)));
+    send(&mut window, Command::from(PathCommand::Width(before / 2.0)));
     wait_for_paths(&mut window);
     let after = shown(&window)[0].found.as_ref().unwrap().solution.gap();
     assert!(after <= before / 2.0, "{before} {after}");
@@ -90,7 +90,7 @@ fn a_dragged_goal_and_painted_risk_move_the_path() {
     release(&mut window, dvec2(0.6, 0.5));
     wait_for_paths(&mut window);
     assert!(cost(&window) < before, "a nearer goal");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     wait_for_paths(&mut window);
     assert_eq!(cost(&window), before, "the drag was one gesture");
     key(&mut window, Modifiers::NONE, Key::B);
@@ -134,7 +134,7 @@ fn a_place_in_between_is_visited_and_deleted_again() {
     assert_eq!(solution.points[solution.stops[1]], places[1]);
     key(&mut window, Modifiers::NONE, Key::Delete);
     assert_eq!(settings(&window).paths.routes[0].len(), 2);
-    send(&mut window, Command::Path(PathCommand::Swap));
+    send(&mut window, Command::from(PathCommand::Swap));
     assert_eq!(settings(&window).paths.routes[0], [places[2], places[0]]);
 }
 
@@ -157,9 +157,9 @@ fn escape_forgets_a_start_without_a_goal() {
     let mut window = window_of(TALL);
     key(&mut window, Modifiers::NONE, Key::P);
     click(&mut window, START, Modifiers::NONE);
-    assert!(window.state().features().paths.tool.pending.is_some());
+    assert!(window.state().features().get::<Paths>().tool.pending.is_some());
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().features().paths.tool.pending.is_none());
+    assert!(window.state().features().get::<Paths>().tool.pending.is_none());
 }
 
 #[test]
@@ -175,8 +175,8 @@ fn an_idle_window_with_a_certified_path_does_no_work() {
 #[test]
 fn the_example_opens_with_its_path() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Path(PathCommand::Width(1.0)));
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Path)));
+    send(&mut window, Command::from(PathCommand::Width(1.0)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Path)));
     wait_for_paths(&mut window);
     let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
     assert!((146.0..147.5).contains(&solution.cost) && solution.highest_risk < 0.1, "{}", solution.cost);
@@ -187,8 +187,8 @@ fn the_example_opens_with_its_path() {
 #[test]
 fn a_place_in_between_comes_where_it_makes_the_way_longer_by_the_least() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::Path(PathCommand::StartAt(dvec2(0.1, 0.5))));
-    send(&mut window, Command::Path(PathCommand::GoalAt(dvec2(0.9, 0.5))));
+    send(&mut window, Command::from(PathCommand::StartAt(dvec2(0.1, 0.5))));
+    send(&mut window, Command::from(PathCommand::GoalAt(dvec2(0.9, 0.5))));
     let xs = |window: &Window| -> Vec<f64> {
         settings(window).paths.routes[0].iter().map(|place| place.x).collect()
     };
@@ -198,7 +198,7 @@ fn a_place_in_between_comes_where_it_makes_the_way_longer_by_the_least() {
         (0.3, vec![0.1, 0.3, 0.5, 0.7, 0.9]),
         (0.2, vec![0.1, 0.2, 0.3, 0.5, 0.7, 0.9]),
     ] {
-        send(&mut window, Command::Path(PathCommand::ViaAt(dvec2(x, 0.52))));
+        send(&mut window, Command::from(PathCommand::ViaAt(dvec2(x, 0.52))));
         assert_eq!(xs(&window), expected);
     }
 }

@@ -23,7 +23,7 @@ fn the_ends_of_paths_are_labelled_with_a_name_that_can_be_typed() {
     assert_eq!(settings(&window).paths.name(0), "Ferry");
     assert!(says(&window, "Ferry: start") && says(&window, "Ferry: goal"));
     assert_eq!(entries(&window), before + 1, "one gesture");
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert!(says(&window, "Path 1: start"));
 }
 
@@ -34,8 +34,8 @@ fn each_path_has_its_name_and_deleting_one_keeps_those_of_others() {
     click(&mut window, dvec2(0.9, 0.4), Modifiers::NONE);
     wait_for_paths(&mut window);
     assert!(says(&window, "Path 1: start") && says(&window, "Path 2: goal"));
-    send(&mut window, Command::Path(PathCommand::Name("North".into())));
-    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    send(&mut window, Command::from(PathCommand::Name("North".into())));
+    send(&mut window, Command::from(EditCommand::EndGesture));
     assert!(says(&window, "North: start"), "the path of the selected place");
     click(&mut window, START, Modifiers::NONE);
     key(&mut window, Modifiers::NONE, Key::Delete);

@@ -68,7 +68,7 @@ fn the_corridor_follows_an_edit() {
     super::stroke(&mut window, glam::dvec2(0.3, 0.2), glam::dvec2(0.35, 0.5));
     wait_for_paths(&mut window);
     wait_until(&mut window, |window| paths(window).corridor.lines() != before);
-    send(&mut window, Command::Path(PathCommand::DeleteAll));
+    send(&mut window, Command::from(PathCommand::DeleteAll));
     assert!(paths(&window).corridor.lines().is_empty() && paths(&window).corridor.is_on);
 }
 
@@ -77,7 +77,7 @@ fn an_alternative_is_pointed_at_and_taken() {
     let mut window = window_with_path();
     check(&mut window, "Alternatives");
     wait_until(&mut window, |window| !paths(window).alternatives.paths().is_empty());
-    send(&mut window, Command::Path(PathCommand::Alternatives(AlternativesCommand::Cancel)));
+    send(&mut window, Command::from(PathCommand::Alternatives(AlternativesCommand::Cancel)));
     let alternatives = paths(&window).alternatives.paths().to_vec();
     assert_eq!(tips::unexplained(&window), [""; 0]);
     let row = window.get_by_role_and_label(Role::Button, "Alternative 1").rect().center();
@@ -93,7 +93,7 @@ fn an_alternative_is_pointed_at_and_taken() {
     wait_for_paths(&mut window);
     let taken = shown(&window)[0].found.clone().unwrap().solution;
     assert!(taken.cost <= alternatives[0].cost * (1.0 + 1e-3), "{} {}", taken.cost, alternatives[0].cost);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(settings(&window).paths.routes[0], places);
 }
 
@@ -104,7 +104,7 @@ fn a_path_of_the_front_is_pointed_at_and_taken() {
     assert!(window.query_by_label("Cancel front").is_some());
     assert_eq!(tips::unexplained(&window), [""; 0]);
     wait_until(&mut window, |window| paths(window).front.points().len() >= 3);
-    send(&mut window, Command::Path(PathCommand::Front(FrontCommand::Cancel)));
+    send(&mut window, Command::from(PathCommand::Front(FrontCommand::Cancel)));
     let front = paths(&window).front.points().to_vec();
     // Somewhere in the plot is a point.
     let plot = window.get_by_role_and_label(Role::Image, "Length against risk").rect();
@@ -124,11 +124,11 @@ fn a_path_of_the_front_is_pointed_at_and_taken() {
     assert_eq!(paths(&window).front.points(), front, "the front does not depend on the weights");
     let solution = shown(&window)[0].found.clone().unwrap().solution;
     assert!((solution.length / front[pointed].solution.length - 1.0).abs() < 1e-3);
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(settings(&window).paths.cost, PathCost::default());
     wait_for_paths(&mut window);
     let length = shown(&window)[0].found.as_ref().unwrap().solution.length;
-    send(&mut window, Command::Path(PathCommand::Front(FrontCommand::Shorter)));
+    send(&mut window, Command::from(PathCommand::Front(FrontCommand::Shorter)));
     wait_for_paths(&mut window);
     assert!(shown(&window)[0].found.as_ref().unwrap().solution.length < length);
 }

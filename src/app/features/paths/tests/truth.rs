@@ -8,17 +8,17 @@ use glam::{DVec2, dvec2};
 
 use super::{GOAL, Window, row, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
-use crate::app::features::paths::PathCommand;
+use crate::app::features::paths::{PathCommand, Paths};
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
     click, click_button, entries, move_to, notice, press, release, send, set, settings, type_into, wait_until,
 };
-use crate::app::widgets::format;
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Region};
 use meshbrush_core::path::{Solution, Weights};
 use meshbrush_mesh::geometry::{Rect, nearest_on_segment};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::format;
 
 fn says(window: &Window, text: &str) -> bool {
     window.query_by_label_contains(text).is_some()
@@ -56,7 +56,7 @@ fn the_highest_risk_is_the_top_of_the_plot_and_the_interval_has_two_ends() {
 
 /// Puts another path in the place of the one that was shown before a proof.
 fn exchange(window: &mut Window, former: Solution) {
-    let paths = &mut window.state_mut().features.paths;
+    let paths = &mut window.state_mut().features.get_mut::<Paths>();
     paths.finder.set_former(0, former);
     window.run();
 }
@@ -90,7 +90,7 @@ fn a_proof_that_exchanges_the_path_says_so_and_the_former_one_can_be_kept() {
         assert_eq!((kept.len(), kept[0], kept[2]), (3, places[0], places[1]));
         assert!(kept[1].distance(way) < 0.1, "{}", kept[1]);
         assert_eq!(entries(&window), gestures + 1);
-        send(&mut window, Command::Edit(EditCommand::Undo));
+        send(&mut window, Command::from(EditCommand::Undo));
         assert_eq!(settings(&window).paths.routes[0], places);
     }
 }
@@ -99,7 +99,7 @@ fn a_proof_that_exchanges_the_path_says_so_and_the_former_one_can_be_kept() {
 fn on_a_coast_the_path_keeps_the_clearance_that_is_typed() {
     let mut window = window_with_path();
     let shortest = PathCost::Weighted(Weights { length: 1.0, risk: 0.0 });
-    send(&mut window, Command::Path(PathCommand::Cost(shortest)));
+    send(&mut window, Command::from(PathCommand::Cost(shortest)));
     // A cape on the straight way, which large triangles would cut.
     let cape = [dvec2(1.0, 0.0), dvec2(1.0, 0.1), dvec2(0.48, 0.52), dvec2(0.9, 0.0)];
     let ring = [dvec2(0.0, 0.0), cape[3], cape[2], cape[1], dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
@@ -121,7 +121,7 @@ fn on_a_coast_the_path_keeps_the_clearance_that_is_typed() {
     assert_eq!(unexplained(&window), [""; 0]);
     wait_for_paths(&mut window);
     assert!((0.1..0.13).contains(&from_tip(&window)), "{}", from_tip(&window));
-    send(&mut window, Command::Edit(EditCommand::Undo));
+    send(&mut window, Command::from(EditCommand::Undo));
     assert_eq!(settings(&window).paths.clearance, 0.0);
     wait_for_paths(&mut window);
     assert!(from_tip(&window) < 0.03, "{}", from_tip(&window));
@@ -157,8 +157,8 @@ fn a_speed_gives_the_time_and_a_projection_the_length_on_the_ellipsoid() {
 #[test]
 fn what_lacks_a_path_names_the_key_that_works() {
     let mut window = window_with_path();
-    send(&mut window, Command::Path(PathCommand::DeleteAll));
-    send(&mut window, Command::Path(PathCommand::AddCorridor));
+    send(&mut window, Command::from(PathCommand::DeleteAll));
+    send(&mut window, Command::from(PathCommand::AddCorridor));
     let text = notice(&window);
     assert_eq!(text, "There is no path: set its start and goal with the path tool (P).");
 }

@@ -6,13 +6,14 @@ use egui_kittest::kittest::Queryable as _;
 
 use super::super::Measured;
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::statistics::Statistics;
 use crate::app::tests::{
     FREE, TALL, Window, fingerprint, notice, open_section, press, release, send, set, stroke, triangles,
     value_of, wait_for_jobs, wait_until, window_of,
 };
-use crate::app::widgets::format;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_mesh::mesh::Mesh;
+use meshbrush_ui::widgets::format;
 
 /// Returns the shortest and the longest edge, by looking at each triangle.
 fn edge_range(mesh: &Mesh) -> [f64; 2] {
@@ -33,7 +34,7 @@ fn open_statistics(window: &mut Window) {
 
 fn figures(window: &Window) -> Option<(&Measured, bool)> {
     let app = window.state();
-    app.features().statistics.figures(app.session())
+    app.features().get::<Statistics>().figures(app.session())
 }
 
 fn wait_for_figures(window: &mut Window) {
@@ -116,7 +117,7 @@ fn a_click_copies_the_fingerprint() {
 #[test]
 fn parts_and_moved_nodes_are_counted() {
     let mut window = window_of(TALL);
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
     wait_until(&mut window, |window| window.state().session().derived().is_some());
     open_statistics(&mut window);
     let session = window.state().session();
