@@ -158,7 +158,7 @@ export interface Limits {
   keepPinches?: boolean;
   rule?: "area" | "vertex";
   maxTriangles?: number;
-  /** The deepest level. Such a mesh is made again by every edit. */
+  /** The deepest level: triangles of it stay, also where they are larger than their target. */
   maxLevel?: number;
   /** Bytes for the mesh. */
   maxMemory?: number;

@@ -23,13 +23,12 @@ pub struct Core {
     pub(crate) document: Document,
     /// Whether somebody said the smallest diameter, which risk needs.
     pub(crate) has_smallest: bool,
-    /// The deepest level of a mesh. One that has it does not follow the document in place.
-    pub(crate) max_level: Option<u32>,
     /// What the options say about the parts that stay.
     pub(crate) kept: Kept,
     /// How it was before the current edit.
     before: Before,
-    made: Option<Made>,
+    /// What keeps the mesh up to date, once there is one.
+    follower: Option<Box<Follower>>,
     /// What was computed from the mesh as it is.
     pub(crate) derived: OnceCell<Derived>,
 }
@@ -39,14 +38,7 @@ pub struct Core {
 struct Before {
     version: u64,
     has_smallest: bool,
-    max_level: Option<u32>,
     kept: Kept,
-}
-
-/// A mesh, and what keeps it up to date.
-enum Made {
-    Following(Box<Follower>),
-    Fixed(Box<BuiltMesh>),
 }
 
 /// The mesh as files have it.
@@ -69,10 +61,9 @@ impl Core {
         Ok(Self {
             document: Document::new(settings_of(options)?, None).map_err(error)?,
             has_smallest: options.get("hMin").is_some(),
-            max_level: max_level(options)?,
             kept: kept(options)?,
             before: Before::default(),
-            made: None,
+            follower: None,
             derived: OnceCell::new(),
         })
     }
@@ -80,16 +71,16 @@ impl Core {
     /// Notes how the document is, for `take_back`.
     #[wasm_bindgen(js_name = beginEdit)]
     pub fn begin_edit(&mut self) {
-        let Self { has_smallest, max_level, kept, .. } = *self;
-        self.before = Before { version: self.document.version(), has_smallest, max_level, kept };
+        let Self { has_smallest, kept, .. } = *self;
+        self.before = Before { version: self.document.version(), has_smallest, kept };
     }
 
     /// Undoes the edits since `beginEdit`.
     #[wasm_bindgen(js_name = takeBack)]
     pub fn take_back(&mut self) {
-        let Before { version, has_smallest, max_level, kept } = self.before;
+        let Before { version, has_smallest, kept } = self.before;
         while self.document.version() > version && self.document.undo() {}
-        (self.has_smallest, self.max_level, self.kept) = (has_smallest, max_level, kept);
+        (self.has_smallest, self.kept) = (has_smallest, kept);
     }
 
     /// Brings the mesh up to date with the document: where it is, or by another one. Returns whether it is
@@ -99,7 +90,7 @@ impl Core {
     /// Fails where the document has no mesh. The edits since `beginEdit` are then undone.
     pub fn follow(&mut self) -> Result<bool, JsError> {
         let followed = self.brought_up_to_date();
-        if followed.is_err() && self.made.is_some() {
+        if followed.is_err() && self.follower.is_some() {
             self.take_back();
             // The former mesh was possible.
             self.brought_up_to_date().ok();
@@ -111,41 +102,22 @@ impl Core {
 impl Core {
     fn brought_up_to_date(&mut self) -> Result<bool, String> {
         self.derived.take();
-        let is_other = match &mut self.made {
-            Some(Made::Following(follower)) if self.max_level.is_none() => {
+        let is_other = match &mut self.follower {
+            Some(follower) => {
                 follower.take_change();
                 follow(follower, &mut self.document)?;
                 follower.take_change() == Some(MeshChange::Replaced)
             }
-            _ => {
-                self.made = Some(self.newly_made()?);
+            none => {
+                let follower =
+                    Follower::new(&mut self.document).map_err(|problem| build_sentence(&problem))?;
+                *none = Some(Box::new(follower));
                 true
             }
         };
         let derived = self.newly_derived()?;
         self.derived.set(derived).ok();
         Ok(is_other)
-    }
-
-    fn newly_made(&mut self) -> Result<Made, String> {
-        if self.max_level.is_none() {
-            let follower = Follower::new(&mut self.document).map_err(|problem| build_sentence(&problem))?;
-            return Ok(Made::Following(Box::new(follower)));
-        }
-        let settings = self.document.settings();
-        let lattice = settings.lattice().map_err(|problem| problem.to_string())?;
-        let limits = Limits {
-            max_triangles: settings.max_triangles,
-            max_level: self.max_level,
-            max_memory: Some(MemoryLimit::for_one_mesh(settings.max_memory)),
-        };
-        let spec = MeshSpec { cleaning: self.cleaning(), ..settings.mesh_spec_on(lattice, limits) };
-        let mut builder = MeshBuilder::new(spec);
-        let paint = self.document.paint();
-        while builder.advance(Some(paint), usize::MAX).map_err(|problem| build_sentence(&problem))?
-            == Progress::More
-        {}
-        Ok(Made::Fixed(Box::new(builder.finish())))
     }
 
     fn newly_derived(&self) -> Result<Derived, String> {
@@ -164,11 +136,7 @@ impl Core {
     /// Checks that the mesh has no more triangles than the surfaces allow, which coarse grid and sizes may
     /// need.
     fn check_surface(&self, mesh: &Mesh) -> Result<(), String> {
-        let surface = match self.made.as_ref() {
-            Some(Made::Following(follower)) => follower.surface(),
-            Some(Made::Fixed(built)) => built.surface.as_ref(),
-            None => None,
-        };
+        let surface = self.follower.as_ref().and_then(|follower| follower.surface());
         match surface.and_then(|rule| rule.exceeded_count()) {
             None => Ok(()),
             Some(most) => Err(format!(
@@ -189,25 +157,16 @@ impl Core {
 
     /// Returns the mesh, once there is one.
     pub(crate) fn mesh(&self) -> Option<&Mesh> {
-        match self.made.as_ref()? {
-            Made::Following(follower) => Some(follower.mesh()),
-            Made::Fixed(built) => Some(&built.mesh),
-        }
+        Some(self.follower.as_ref()?.mesh())
     }
 
     /// Returns h̄ of the mesh.
     pub(crate) fn field(&self) -> &SizeField {
-        match self.made.as_ref().expect(NO_MESH) {
-            Made::Following(follower) => follower.field(),
-            Made::Fixed(built) => &built.field,
-        }
+        self.follower.as_ref().expect(NO_MESH).field()
     }
 
     fn domain_on_lattice(&self) -> &DomainOnLattice {
-        match self.made.as_ref().expect(NO_MESH) {
-            Made::Following(follower) => follower.domain(),
-            Made::Fixed(built) => &built.domain,
-        }
+        self.follower.as_ref().expect(NO_MESH).domain()
     }
 
     /// Returns the settings.
@@ -236,14 +195,3 @@ fn follow(follower: &mut Follower, document: &mut Document) -> Result<(), String
         }
     }
 }
-
-/// Returns the deepest level that options state.
-///
-/// # Errors
-/// Fails for another number.
-pub(crate) fn max_level(options: Table<'_>) -> Result<Option<u32>, JsError> {
-    Ok(options.count("maxLevel", 0, DEEPEST)?.map(|level| level as u32))
-}
-
-/// More levels than any lattice has.
-const DEEPEST: usize = 255;

@@ -5,7 +5,7 @@ use meshbrush_core::document::{Document, Setting};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 use wasm_bindgen::prelude::*;
 
-use crate::document::{Core, max_level};
+use crate::document::Core;
 use crate::errors::error;
 use crate::kinds::{COMBINE, layer_of};
 use crate::options::{changed, kept};
@@ -19,11 +19,10 @@ impl Core {
     /// Fails for options that cannot be met; the document is then as it was.
     pub fn set(&mut self, options: &JsValue) -> Result<(), JsError> {
         let options = Table(options);
-        let (level, parts) = (max_level(options)?, kept(options)?);
+        let parts = kept(options)?;
         let wanted = changed(options, self.settings().clone())?;
         self.document.change_numbers(wanted).map_err(error)?;
         self.has_smallest |= options.get("hMin").is_some();
-        self.max_level = level.or(self.max_level);
         // What is said about parts counts for every domain.
         self.kept = self.kept.and(parts);
         Ok(())

@@ -115,9 +115,13 @@ pub fn changed(options: Table<'_>, settings: Settings) -> Result<Settings, JsErr
         rule: options.word("rule", &rules)?.unwrap_or(settings.rule),
         max_triangles: options.count("maxTriangles", 2, MOST_TRIANGLES)?.unwrap_or(settings.max_triangles),
         max_memory: memory.map_or(settings.max_memory, |bytes| bytes as usize),
+        max_level: options.count("maxLevel", 0, DEEPEST)?.map(|level| level as u32).or(settings.max_level),
         ..settings
     })
 }
+
+/// More levels than any lattice has.
+const DEEPEST: usize = 255;
 
 /// What options say about the parts that stay.
 #[derive(Clone, Copy, Default)]

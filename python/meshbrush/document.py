@@ -276,13 +276,11 @@ class Document:
     def __repr__(self) -> str:
         return repr(self._core)
 
-    def __getstate__(self) -> tuple[bytes, int | None]:
-        return self._core.to_bytes(), self._core.options()["max_level"]
+    def __getstate__(self) -> bytes:
+        return self._core.to_bytes()
 
-    def __setstate__(self, state: tuple[bytes, int | None]) -> None:
-        self._take(_core.Document.of_bytes(state[0]))
-        if state[1] is not None:
-            self._core.set({"mesh": {"max_level": state[1]}})
+    def __setstate__(self, state: bytes) -> None:
+        self._take(_core.Document.of_bytes(state))
 
 
 @dataclass(frozen=True)

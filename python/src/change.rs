@@ -33,9 +33,6 @@ impl Document {
         let (state, follower) = (self.state.clone(), self.follower.clone());
         let updated = run(py, &watching, move |watch| {
             let begun = Instant::now();
-            if lock(&state).max_level.is_some() {
-                return Err("A document with max_level has no mesh that follows it: call mesh().".to_owned());
-            }
             let mut held = lock(&follower);
             let (first, mut follower) = match held.take() {
                 Some(follower) => (false, follower),

@@ -49,8 +49,6 @@ pub struct State {
     coordinates: Coordinates,
     /// Whether somebody said the smallest diameter, which risk needs.
     pub has_smallest: bool,
-    /// The deepest level of a mesh, which documents in files do not have.
-    pub max_level: Option<u32>,
     /// What the options say about the parts that stay.
     parts: SavedSettings,
     /// Settings and mesh at the time when changes of the paint were last taken.
@@ -67,7 +65,6 @@ impl Document {
             assumed: saved.domain.assumed().ok().flatten(),
             coordinates: coordinates.unwrap_or(Coordinates::Geographic),
             has_smallest: saved.limits.h_min.is_some(),
-            max_level: saved.mesh.max_level,
             parts: SavedSettings { domain: saved.domain.clone(), ..SavedSettings::default() },
             base: None,
             taken: 0,
@@ -80,7 +77,6 @@ impl Document {
             assumed: None,
             coordinates: Coordinates::Geographic,
             has_smallest: true,
-            max_level: None,
             parts: SavedSettings::default(),
             base: None,
             taken: 0,
@@ -187,8 +183,7 @@ impl Document {
 
     /// The settings that options change, by their names.
     fn options<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (settings, max_level) =
-            self.with(py, |state| (state.document.settings().clone(), state.max_level));
+        let settings = self.with(py, |state| state.document.settings().clone());
         let saved: SavedSettings = SavedSettings::of(&settings, "", Vec::new(), Vec::new());
         let all = PyDict::new(py);
         all.set_item("name", settings.name)?;
@@ -202,7 +197,7 @@ impl Document {
         all.set_item("rule", format!("{:?}", settings.rule).to_lowercase())?;
         all.set_item("max_triangles", settings.max_triangles)?;
         all.set_item("max_memory", settings.max_memory)?;
-        all.set_item("max_level", max_level)?;
+        all.set_item("max_level", settings.max_level)?;
         let boundary = settings.domain.region().and(saved.domain.boundary);
         all.set_item("boundary", boundary.map(|kind| format!("{kind:?}").to_lowercase()))?;
         all.set_item("boundary_diameter", boundary.and(settings.boundary.diameter()))?;
@@ -222,7 +217,6 @@ impl Document {
             let wanted = wanted.map_err(|fault| fault_in(&tables, &fault))?;
             state.document.change_numbers(wanted).map_err(mesh_error)?;
             state.has_smallest |= saved.limits.h_min.is_some();
-            state.max_level = saved.mesh.max_level.or(state.max_level);
             // What is said about parts counts for every domain.
             let parts = &mut state.parts.domain;
             parts.parts = saved.domain.parts.or(parts.parts);
@@ -290,8 +284,9 @@ impl Document {
 /// Returns the mesh that follows the document, where it is that of the document as it is.
 fn built_in_place(state: &Mutex<State>, follower: &core::Follower) -> Option<(BuiltMesh, MeshOrigin)> {
     let state = lock(state);
-    let is_its_mesh = state.max_level.is_none() && follower.is_in_step(&state.document);
-    is_its_mesh.then(|| (follower.built(), origin_of(&state, *follower.mesh().lattice())))
+    follower
+        .is_in_step(&state.document)
+        .then(|| (follower.built(), origin_of(&state, *follower.mesh().lattice())))
 }
 
 fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
@@ -312,7 +307,7 @@ fn limits_of(state: &State) -> Limits {
     let settings = state.document.settings();
     Limits {
         max_triangles: settings.max_triangles,
-        max_level: state.max_level,
+        max_level: settings.max_level,
         max_memory: Some(MemoryLimit::for_one_mesh(settings.max_memory)),
     }
 }
@@ -335,7 +330,7 @@ impl ToMake {
         let mut state = lock(state);
         let settings = state.document.settings().clone();
         let lattice = settings.lattice().map_err(|error| error.to_string())?;
-        let taken = (!is_followed && state.max_level.is_none()).then(|| {
+        let taken = (!is_followed).then(|| {
             state.base = None;
             state.document.take_repainted();
             state.taken += 1;

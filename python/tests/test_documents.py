@@ -277,9 +277,15 @@ def test_layers_are_followed_in_place_too() -> None:
     assert not change.replaced
     assert document.mesh().fingerprint == document.mesh(fresh=True).fingerprint
     capped = square(max_level=4)
-    with pytest.raises(mb.MeshError, match="max_level"):
-        capped.update()
     assert capped.mesh().levels.max() == 4 and capped.mesh().statistics["capped"] > 0
+    capped.update()
+    capped.layers.distance([(0.9, 0.1)], at_zero=0.005, slope=0.4)
+    assert not capped.update().replaced
+    assert capped.mesh().levels.max() == 4 and capped.mesh().fingerprint == capped.mesh(fresh=True).fingerprint
+    capped.set(max_level=5)
+    assert capped.update().replaced and capped.mesh().levels.max() == 5
+    capped.undo()
+    assert capped.options["max_level"] == 4
 
 
 def test_documents_are_pickled_copied_saved_and_opened(tmp_path: Path) -> None:
@@ -290,9 +296,10 @@ def test_documents_are_pickled_copied_saved_and_opened(tmp_path: Path) -> None:
     for other in (pickle.loads(pickle.dumps(document)), copy.copy(document), copy.deepcopy(document)):
         assert other.mesh().fingerprint == expected and repr(other) == repr(document)
         assert len(other.layers) == 2 and other.options == document.options
-    document.set(max_level=30)
-    document.save(tmp_path / "a.meshbrush")
-    assert mb.open(tmp_path / "a.meshbrush").mesh().fingerprint == document.mesh().fingerprint
+    for name in ("a.meshbrush", "a.toml"):
+        document.save(tmp_path / name)
+        again = mb.open(tmp_path / name)
+        assert again.options["max_level"] == 7 and again.mesh().fingerprint == expected
     with pytest.raises(TypeError, match="document"):
         pickle.dumps(document.mesh())
 

@@ -16,6 +16,7 @@ pub static PLACES: [Place; 27] = [
     Place::new("mesh", "Mesh", "Spacing δ").words("coarse grid cell size delta"),
     Place::new("mesh", "Mesh", "Refinement rule").words("area vertex rule"),
     Place::new("budgets", "Budgets", "Triangle budget").words("limit maximum most triangles"),
+    Place::new("budgets", "Budgets", "Deepest level").words("max level limit bisections refinement"),
     Place::new("budgets", "Budgets", "Memory budget").words("limit maximum ram gigabytes"),
     Place::new("mesh", "Mesh", "Threads").words("cores cpu processors parallel"),
     Place::new("statistics", "Statistics", "").words("figures quality angles area fingerprint counts table"),

@@ -46,9 +46,9 @@ impl EmptyDocument {
     pub fn on(&self, file: &Path, domain: Domain, unit: LengthUnit) -> Settings {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let unit = if unit == LengthUnit::None { self.0.unit } else { unit };
-        let Settings { rule, cleaning, gradation, max_triangles, max_memory, .. } = self.0;
+        let Settings { rule, cleaning, gradation, max_triangles, max_memory, max_level, .. } = self.0;
         let usual = Settings::for_domain(name, domain);
-        Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, ..usual }
+        Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, max_level, ..usual }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The budgets: how many triangles the mesh may have, and how much memory.
+//! The budgets: how many triangles the mesh may have, how much memory, and which deepest level.
 
 use std::ops::RangeInclusive;
 
@@ -55,7 +55,22 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         let max_memory = (gigabytes * GIGABYTE).round() as usize;
         set_once(Setting::MaxMemory(max_memory), commands);
     }
+    level_row(ui, state, commands);
     needs(ui, state);
+}
+
+/// The deepest level. The last one of the lattice is as good as none.
+fn level_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let session = state.session;
+    let last = f64::from(session.mesh().lattice().deepest_level());
+    let given = session.document().settings().max_level;
+    let mut level = given.map_or(last, |level| f64::from(level).min(last));
+    let help = "The deepest level of a triangle: those that have it stay as they are, also where they are larger than \
+                their target. The default is the last one of the lattice, so that only h̄ decides.";
+    let row = NumberRow::new("Deepest level", &mut level).aligned_with(TRIANGLE_BUDGET).integer();
+    if row.range(0.0..=last).default(last).help(help).show(ui).changed() {
+        set_once(Setting::MaxLevel((level < last).then_some(level as u32)), commands);
+    }
 }
 
 /// Shows what is used of the budgets, and what the present settings would need.

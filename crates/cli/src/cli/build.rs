@@ -54,6 +54,11 @@ pub struct MeshOrigin {
 }
 
 impl FinishedMesh {
+    /// Returns the deepest level that a triangle may have, if there is one.
+    pub fn max_level(&self) -> Option<u32> {
+        self.origin.spec.limits.max_level
+    }
+
     /// Puts a mesh together.
     ///
     /// # Errors

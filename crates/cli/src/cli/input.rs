@@ -140,7 +140,7 @@ impl Input {
         self.lengths.iter().try_for_each(|length| length.check(settings.unit))?;
         let limits = Limits {
             max_triangles: settings.max_triangles,
-            max_level: self.settings.mesh.max_level,
+            max_level: settings.max_level,
             // The window keeps room for a second mesh; here there is one.
             max_memory: Some(MemoryLimit::for_one_mesh(settings.max_memory)),
         };

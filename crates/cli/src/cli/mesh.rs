@@ -47,7 +47,7 @@ pub fn run(
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
     let violations = match typed.checks {
-        true => Some(report_violations(&finished, &extract, input.settings.mesh.max_level, terminal)?),
+        true => Some(report_violations(&finished, &extract, finished.max_level(), terminal)?),
         false => None,
     };
     let writes = files.iter().any(|files| !files.outputs.is_empty());

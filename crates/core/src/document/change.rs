@@ -54,6 +54,7 @@ impl Settings {
             layers,
             gradation,
             rule,
+            max_level,
         } = self;
         let Self {
             name: _,
@@ -72,12 +73,15 @@ impl Settings {
             layers: old_layers,
             gradation: old_gradation,
             rule: old_rule,
+            max_level: old_max_level,
         } = old;
         // Only polygons are met in one way or another; nodes are moved onto them in the derived mesh.
         let is_fitted_alike = boundary.diameter() == old_boundary.diameter()
             || [domain, old_domain].iter().all(|domain| domain.region().is_none());
         let outline = domain != old_domain;
-        let has_other_grid = spacing != old_spacing || rule != old_rule || !is_fitted_alike;
+        // The deepest level is part of the rule of an update.
+        let has_other_rule = rule != old_rule || max_level != old_max_level;
+        let has_other_grid = spacing != old_spacing || has_other_rule || !is_fitted_alike;
         if has_other_grid || (outline && !self.can_follow_outline(old_domain)) {
             return Change::NewMesh { is_similar: !outline && rule == old_rule };
         }

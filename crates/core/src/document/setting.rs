@@ -39,6 +39,8 @@ pub enum Setting {
     MaxTriangles(usize),
     /// Most memory for meshes, in bytes.
     MaxMemory(usize),
+    /// The deepest level of a triangle, or none.
+    MaxLevel(Option<u32>),
     /// The rectangle that the coarse grid covers, in world units.
     Bounds(Rect),
     /// The whole domain.
@@ -89,6 +91,7 @@ impl Setting {
             Self::RefinementRule(_) => "refinement rule",
             Self::MaxTriangles(_) => "triangle budget",
             Self::MaxMemory(_) => "memory budget",
+            Self::MaxLevel(_) => "deepest level",
             Self::Bounds(_) => "domain",
             Self::Domain(_) => "domain shape",
             Self::Outline { .. } => "outline",
@@ -144,6 +147,7 @@ impl Setting {
             Self::RefinementRule(rule) => settings.rule = rule,
             Self::MaxTriangles(max_triangles) => settings.max_triangles = max_triangles,
             Self::MaxMemory(max_memory) => settings.max_memory = max_memory,
+            Self::MaxLevel(max_level) => settings.max_level = max_level,
             Self::Bounds(bounds) => settings.domain = settings.domain.with_bounds(bounds),
             Self::Domain(domain) => settings.domain = domain,
             Self::Outline { domain, boundary_marks } => {

@@ -50,6 +50,9 @@ pub struct Settings {
     pub max_triangles: usize,
     /// Most memory for the mesh and the next one made beside it, in bytes.
     pub max_memory: usize,
+    /// The deepest level of a triangle, or `None` for any. Triangles of this level stay as they are, also
+    /// where they are larger than their target.
+    pub max_level: Option<u32>,
 }
 
 /// Why settings cannot be met.
@@ -387,7 +390,7 @@ impl Settings {
     pub fn limits(&self) -> Limits {
         let memory = MOST_MEMORY.map_or(self.max_memory, |most| self.max_memory.min(most));
         let max_memory = Some(MemoryLimit::for_two_meshes(memory));
-        Limits { max_triangles: self.max_triangles, max_level: None, max_memory }
+        Limits { max_triangles: self.max_triangles, max_level: self.max_level, max_memory }
     }
 }
 
@@ -444,6 +447,7 @@ impl Default for Settings {
             rule: RefinementRule::Area,
             max_triangles: Self::MAX_TRIANGLES,
             max_memory: Self::MAX_MEMORY,
+            max_level: None,
         }
     }
 }

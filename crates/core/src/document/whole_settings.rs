@@ -47,6 +47,7 @@ impl Document {
             Setting::Cleaning(wanted.cleaning),
             Setting::MaxTriangles(wanted.max_triangles),
             Setting::MaxMemory(wanted.max_memory),
+            Setting::MaxLevel(wanted.max_level),
         ];
         changes.into_iter().try_for_each(|change| {
             self.set(change)?;

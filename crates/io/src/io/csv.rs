@@ -10,21 +10,15 @@
 use std::io::{self, Write};
 
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, NodeValues, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, NodeValues, Number, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// A table with a row for each triangle.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "csv",
-    endings: &["csv"],
-    tail: "",
     purpose: "Spreadsheets and scripts: a row for each triangle",
     size: TypicalSize { bytes: 164.0, bytes_per_digit: 7.0 },
     has_targets: true,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("csv", &["csv"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1,target2,target3,\

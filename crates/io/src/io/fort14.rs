@@ -15,22 +15,18 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, StringKind};
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// ADCIRC.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "fort14",
-    endings: &["14", "grd"],
-    tail: "",
     purpose: "ADCIRC (fort.14): open boundaries, land and islands",
     size: SIZE,
-    has_targets: false,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    has_open_boundary: true,
+    ..FormatSpec::new("fort14", &["14", "grd"], |out, mesh, data, meter| {
+        write(&mut meter.count(out), mesh, data)
+    })
 };
 
 /// The size of its files, and of those with the same contents.

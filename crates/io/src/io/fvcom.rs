@@ -9,25 +9,21 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryStrings, LAND};
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// FVCOM.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "fvcom",
-    endings: &["dat"],
     tail: "_grd.dat",
     purpose: "FVCOM: three files, mesh, depths and open boundary",
     size: TypicalSize { bytes: 48.0, bytes_per_digit: 5.0 },
-    has_targets: false,
-    third: ThirdCoordinate::None,
+    has_open_boundary: true,
     beside: &[
         ("_dep.dat", |out, mesh, data, meter| write_depths(&mut meter.count(out), mesh, data)),
         ("_obc.dat", |out, mesh, data, meter| write_open_boundary(&mut meter.count(out), mesh, data)),
     ],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("fvcom", &["dat"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// FVCOM's number for an open boundary at which the elevation is given.

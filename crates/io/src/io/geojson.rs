@@ -7,7 +7,7 @@ use super::coordinates::{self, DocumentPlane, FileCoordinates};
 use super::disk::File;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
-use super::shape_format::ShapeFormatSpec;
+use super::format_spec::ShapeFormatSpec;
 use super::{Counted, Meter, shapes};
 use meshbrush_core::domain::{NamedPolygon, Polygon};
 use meshbrush_core::earth::{

@@ -19,16 +19,10 @@ use meshbrush_mesh::text::LengthUnit;
 
 /// glTF in binary form.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "glb",
-    endings: &["glb"],
-    tail: "",
     purpose: "glTF: viewers, browsers, game engines; in metres, y upwards",
     size: TypicalSize { bytes: 24.0, bytes_per_digit: 0.0 },
-    has_targets: false,
     third: ThirdCoordinate::Model,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("glb", &["glb"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Metres in a degree of latitude, on a sphere with the mean radius of the Earth.

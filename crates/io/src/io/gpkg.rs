@@ -8,8 +8,8 @@ use std::path::Path;
 
 use super::Meter;
 use super::error::ReadError;
+use super::format_spec::ShapeFormatSpec;
 use super::geojson::Outline;
-use super::shape_format::ShapeFormatSpec;
 use super::shapes::ShapeFile;
 
 /// The format, for the list of all formats of shapes.

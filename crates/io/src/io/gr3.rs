@@ -8,37 +8,27 @@
 use std::io::{self, Write};
 
 use super::fort14::{self, Dialect, number_of_land, write_dialect};
-use super::{FormatSpec, MeshData, ThirdCoordinate};
+use super::{FormatSpec, MeshData};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
 
 /// SCHISM.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "gr3",
-    endings: &["gr3"],
-    tail: "",
     purpose: "SCHISM (hgrid.gr3): open boundaries, land and islands",
     size: fort14::SIZE,
-    has_targets: false,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    has_open_boundary: true,
+    ..FormatSpec::new("gr3", &["gr3"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// SCHISM, with longitudes and latitudes.
 pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
-    name: "ll",
-    endings: &["ll"],
-    tail: "",
     purpose: "SCHISM (hgrid.ll): the same in degrees",
     size: fort14::SIZE,
-    has_targets: false,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |out, mesh, data, meter| write_in_degrees(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    has_open_boundary: true,
+    ..FormatSpec::new("ll", &["ll"], |out, mesh, data, meter| {
+        write_in_degrees(&mut meter.count(out), mesh, data)
+    })
 };
 
 /// Writes `hgrid.gr3`.

@@ -4,7 +4,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::atomic::{Draft, put_in_place};
-use super::{MESH_FORMATS, MeshData, Meter};
+use super::format_spec::{FormatSpec, ThirdCoordinate, TypicalSize, WriteMesh};
+use super::formats::MESH_FORMATS;
+use super::{MeshData, Meter};
 use meshbrush_mesh::mesh::Extract;
 
 /// A file format for a mesh with its data: one of [`Self::all`], or its binary form.
@@ -14,62 +16,10 @@ pub struct MeshFormat {
     is_binary: bool,
 }
 
-/// A file format, as its module describes it.
-pub struct FormatSpec {
-    /// The name of the format: the usual extension, or another word.
-    pub name: &'static str,
-    /// The file name extensions that the format may have, in lower case and without the dot, the usual one
-    /// first. Of several formats with one extension, the first in the list has it, and the others are chosen
-    /// by their names.
-    pub endings: &'static [&'static str],
-    /// What the name of the first file ends with, as in `_grd.dat`; empty where an extension is enough.
-    pub tail: &'static str,
-    /// The programs that read the format, and its contents, in a few words for a list of formats.
-    pub purpose: &'static str,
-    /// How long its files are.
-    pub size: TypicalSize,
-    /// Whether h̄ at the nodes is in its files: [`MeshData::target_diameter`].
-    pub has_targets: bool,
-    /// What the third coordinate of its nodes is.
-    pub third: ThirdCoordinate,
-    /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
-    pub beside: &'static [(&'static str, WriteMesh)],
-    /// Writes a mesh.
-    pub write: WriteMesh,
-    /// Writes a mesh in binary form, if the format has a form of either kind.
-    pub write_binary: Option<WriteMesh>,
-}
-
-/// The third coordinate of nodes in the files of a format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ThirdCoordinate {
-    /// There is none, or it is a depth for a solver.
-    None,
-    /// The height of a surface, [`MeshData::heights`].
-    Height,
-    /// The height of a surface, in a format of models in space, where all coordinates are lengths.
-    Model,
-}
-
-/// How long the files of a format are, all together, as measured on graded meshes and coasts.
-#[derive(Clone, Copy, Debug)]
-pub struct TypicalSize {
-    /// Bytes for each triangle of a mesh of 10,000 triangles.
-    pub bytes: f64,
-    /// Further bytes for each triangle of a mesh ten times as large: its numbers have one more digit.
-    pub bytes_per_digit: f64,
-}
-
-/// Writes a mesh and its data, and updates the meter.
-pub type WriteMesh = fn(&mut dyn Write, &Extract, &MeshData, &Meter) -> io::Result<()>;
-
-/// The names of the formats in which coastal solvers find their open boundaries.
-const OF_COASTAL_SOLVERS: [&str; 8] = ["fort14", "gr3", "ll", "2dm", "slf", "mesh", "msh2", "fvcom"];
-
 impl MeshFormat {
     /// Returns whether a coastal solver finds its open boundary in the files of the format.
     pub fn has_open_boundary(self) -> bool {
-        OF_COASTAL_SOLVERS.contains(&self.spec.name)
+        self.spec.has_open_boundary
     }
 
     /// Returns all formats.

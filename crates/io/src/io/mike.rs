@@ -10,23 +10,17 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::BoundaryStrings;
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
 /// MIKE.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "mesh",
-    endings: &["mesh"],
-    tail: "",
     purpose: "MIKE 21 and MIKE 3 FM: open boundaries and land as codes",
     size: TypicalSize { bytes: 36.0, bytes_per_digit: 4.5 },
-    has_targets: false,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    has_open_boundary: true,
+    ..FormatSpec::new("mesh", &["mesh"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// MIKE's number for the item bathymetry, and for the unit metre.

@@ -33,6 +33,8 @@ mod error;
 mod fault;
 mod features;
 mod folder;
+mod format_spec;
+mod formats;
 pub mod fort14;
 pub mod fvcom;
 mod gdal_metadata;
@@ -40,6 +42,7 @@ mod given;
 pub mod gr3;
 mod interrupt;
 pub mod link;
+mod mesh_data;
 mod mesh_file;
 mod meter;
 pub mod mike;
@@ -97,8 +100,6 @@ mod wkb;
 mod wkt_projection;
 pub mod world_file;
 
-use std::io::{self, Write};
-
 pub use atomic::{exists, is_read_only, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;
 pub use coordinate_system::{CoordinateKind, CoordinateSystem};
@@ -106,117 +107,20 @@ pub use coordinates::{DocumentPlane, FileCoordinates};
 pub use error::{Flaw, Place, ReadError};
 pub use fault::{KeyFault, Mark, Step, nearest_word};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
+pub use format_spec::{
+    FileGrid, FormatSpec, GridPlace, GridWindow, RasterFormatSpec, ReadRaster, ThirdCoordinate, TypicalSize,
+};
 pub use given::{Given, GivenGrid};
 pub use interrupt::Interruption;
-pub use mesh_file::{FormatSpec, MeshFormat, ThirdCoordinate, TypicalSize};
-use meshbrush_core::domain::MeshBoundary;
+pub use mesh_data::{DEPTH, MeshData, NodeValues, SURFACE};
+pub use mesh_file::MeshFormat;
 pub use meshbrush_mesh::text::Number;
 pub use meter::{Cancelled, Counted, Meter};
 use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
-pub use raster_file::{FileGrid, GridPlace, GridWindow, RasterFormat, RasterFormatSpec, ReadRaster};
+pub use raster_file::RasterFormat;
 pub use route_on_earth::RouteOnEarth;
-use shape_format::ShapeFormatSpec;
 pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
 pub use values::TextValue;
 pub use vertical::{UnitOfLength, ValueFacts, ValueUnit, VerticalSystem};
-
-/// The formats of meshes. A new one is a module and an entry here.
-static MESH_FORMATS: [&FormatSpec; 17] = [
-    &vtu::FORMAT,
-    &msh::FORMAT,
-    &obj::FORMAT,
-    &stl::FORMAT,
-    &ply::FORMAT,
-    &glb::FORMAT,
-    &node::FORMAT,
-    &sms::FORMAT,
-    &csv::FORMAT,
-    &fort14::FORMAT,
-    &gr3::FORMAT,
-    &gr3::FORMAT_IN_DEGREES,
-    &ugrid::FORMAT,
-    &selafin::FORMAT,
-    &mike::FORMAT,
-    &msh2::FORMAT,
-    &fvcom::FORMAT,
-];
-
-/// The formats of rasters. A new one is a module and an entry here.
-static RASTER_FORMATS: [&RasterFormatSpec; 5] =
-    [&png::RASTER, &asc::RASTER, &geotiff::RASTER, &netcdf::RASTER, &npy::RASTER];
-
-/// The formats of shapes. A new one is a module and an entry here.
-static SHAPE_FORMATS: [&ShapeFormatSpec; 3] = [&geojson::FORMAT, &shp::FORMAT, &gpkg::FORMAT];
-
-/// The data that is written with a mesh. The level of each triangle comes from the mesh.
-///
-/// In files a piece of the boundary has the marker 1 + its number.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshData<'a> {
-    /// h̄ at each node, in world units, in the order of the extract's nodes; only formats with
-    /// [`MeshFormat::has_targets`] read it.
-    pub target_diameter: &'a [f64],
-    /// Further values at the nodes, in the same order.
-    pub quantities: &'a [NodeValues],
-    /// The height of each node above the plane, in the same order, for formats with a third coordinate.
-    pub heights: Option<&'a [f64]>,
-    /// The boundary in named pieces.
-    pub boundary: &'a MeshBoundary,
-    /// The number of each triangle's part, from 0 for the largest: [`Extract::part_numbers`].
-    ///
-    /// [`Extract::part_numbers`]: meshbrush_mesh::mesh::Extract::part_numbers
-    pub parts: &'a [u32],
-    /// The origin of the mesh, for all formats except `.csv`, whose readers take no comments.
-    pub provenance: &'a Provenance,
-}
-
-/// A value at each node, and its name in files.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NodeValues {
-    /// Letters, digits and underscores.
-    pub name: String,
-    /// One value for each node.
-    pub values: Vec<f64>,
-}
-
-/// The name of the quantity that is the depth.
-pub const DEPTH: &str = "depth";
-
-/// The name of the values of surfaces at the nodes.
-pub const SURFACE: &str = "surface";
-
-impl MeshData<'_> {
-    /// The depth at each node, positive downwards, for the formats of coastal solvers: the quantity with the
-    /// name `depth`. Without it they have depth 0 everywhere; h̄ is a length of triangles and no depth.
-    pub fn depths(&self) -> Option<&[f64]> {
-        self.quantities.iter().find(|quantity| quantity.name == DEPTH).map(|depth| &*depth.values)
-    }
-
-    /// The third coordinate of a node: the height of the surface, 0 without one.
-    fn height(&self, node: usize) -> f64 {
-        self.heights.map_or(0.0, |heights| heights[node])
-    }
-
-    /// The depth at a node, positive downwards; 0 without depths.
-    fn depth(&self, node: usize) -> f64 {
-        self.depths().map_or(0.0, |depths| depths[node])
-    }
-
-    /// The height of the ground at a node, positive upwards; 0 without depths.
-    fn ground(&self, node: usize) -> f64 {
-        0.0 - self.depth(node) // not -0 without depths
-    }
-
-    /// Writes the origin of the mesh in lines that a format takes for comments.
-    fn write_comments(&self, out: &mut impl Write) -> io::Result<()> {
-        self.provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))
-    }
-
-    /// h̄ and then the quantities, each with its name.
-    fn node_values(&self) -> impl Iterator<Item = (&str, &[f64])> + Clone {
-        let further = self.quantities.iter().map(|q| (q.name.as_str(), q.values.as_slice()));
-        std::iter::once(("target_diameter", self.target_diameter)).chain(further)
-    }
-}

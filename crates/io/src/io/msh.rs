@@ -17,16 +17,12 @@ use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId, TriangleId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "msh",
-    endings: &["msh"],
-    tail: "",
     purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
     size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
     has_targets: true,
     third: ThirdCoordinate::Height,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),
+    ..FormatSpec::new("msh", &["msh"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Gmsh's numbers for an element of two and of three nodes.

@@ -9,22 +9,18 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::BoundaryStrings;
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Gmsh 2.2.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "msh2",
-    endings: &["msh2", "msh"],
-    tail: "",
     purpose: "WAVEWATCH III (Gmsh 2.2): open boundaries as points",
     size: TypicalSize { bytes: 47.0, bytes_per_digit: 5.5 },
-    has_targets: false,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    has_open_boundary: true,
+    ..FormatSpec::new("msh2", &["msh2", "msh"], |out, mesh, data, meter| {
+        write(&mut meter.count(out), mesh, data)
+    })
 };
 
 /// Gmsh's numbers for an element of one and of three nodes.

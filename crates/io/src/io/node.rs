@@ -12,7 +12,7 @@
 use std::io::{self, Write};
 
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// The number of the first node, triangle and edge.
@@ -20,20 +20,15 @@ const FIRST: usize = 1;
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "node",
-    endings: &["node"],
-    tail: "",
     purpose: "Triangle: four files, nodes, elements, neighbours and edges",
     size: TypicalSize { bytes: 93.0, bytes_per_digit: 13.0 },
     has_targets: true,
-    third: ThirdCoordinate::None,
     beside: &[
         ("ele", |out, mesh, data, meter| write_elements(&mut meter.count(out), mesh, data)),
         ("neigh", |out, mesh, data, meter| write_neighbours(&mut meter.count(out), mesh, data)),
         ("edge", |out, mesh, data, meter| write_edges(&mut meter.count(out), mesh, data)),
     ],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("node", &["node"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Writes the `.node` file: coordinates, h̄, quantities and boundary marker of each node.

@@ -11,16 +11,11 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Wavefront.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "obj",
-    endings: &["obj"],
-    tail: "",
     purpose: "Blender and other 3D programs: a group for each level",
     size: TypicalSize { bytes: 58.0, bytes_per_digit: 3.5 },
     has_targets: true,
     third: ThirdCoordinate::Model,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("obj", &["obj"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Writes the mesh, one group for each level.

@@ -12,16 +12,11 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Stanford's format.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "ply",
-    endings: &["ply"],
-    tail: "",
     purpose: "MeshLab, CloudCompare, Blender: with h̄ and values at nodes",
     size: TypicalSize { bytes: 30.0, bytes_per_digit: 0.0 },
     has_targets: true,
     third: ThirdCoordinate::Model,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("ply", &["ply"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Writes vertices with their values, and triangles.

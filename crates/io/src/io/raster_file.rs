@@ -1,66 +1,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::coordinate_system::{CoordinateKind, CoordinateSystem};
-use super::png::Behind;
-use super::{DocumentPlane, FileCoordinates, Meter, RASTER_FORMATS, ReadError, ValueFacts};
-use meshbrush_core::raster::Raster;
-use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::text::LengthUnit;
+use super::format_spec::{RasterFormatSpec, ReadRaster};
+use super::formats::RASTER_FORMATS;
 
 /// A file format of rasters: one of [`Self::all`].
 #[derive(Clone, Copy)]
 pub struct RasterFormat(&'static RasterFormatSpec);
-
-/// A file format of rasters, as its module describes it.
-pub struct RasterFormatSpec {
-    /// The file name extensions, in lower case and without the dot; the usual one first.
-    pub endings: &'static [&'static str],
-    /// Whether a file has several variables or bands, of which one is named as in `FILE.nc#VARIABLE`.
-    pub has_parts: bool,
-    /// Reads a file, and counts its bytes.
-    pub read: ReadRaster,
-}
-
-/// Reads a raster, and counts the bytes of its file. Pixels without a value are NaN.
-#[derive(Clone, Copy)]
-pub enum ReadRaster {
-    /// Reads a grid that says which rectangle it covers.
-    Grid(fn(&Path, &GridPlace, &Meter) -> Result<FileGrid, ReadError>),
-    /// Reads a grid that does not say which rectangle it covers, over the given one, in world units.
-    Array(fn(&Path, Rect, &Meter) -> Result<FileGrid, ReadError>),
-    /// Reads an image over the given rectangle, in world units, as values from 0 (black) to 1 (white).
-    Image(fn(&Path, Rect, Behind, &Meter) -> Result<Raster, ReadError>),
-}
-
-/// Where a grid lies, and which part of it is wanted.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct GridPlace {
-    /// The rectangle that it covers, in world units, in place of the one that its file says.
-    pub over: Option<Rect>,
-    /// The part that is wanted. A reader may return more.
-    pub window: Option<GridWindow>,
-}
-
-/// A part of a grid.
-#[derive(Clone, Copy, Debug)]
-pub struct GridWindow {
-    /// The part, in world units.
-    pub area: Rect,
-    /// The plane of the document, if it has one.
-    pub plane: Option<DocumentPlane>,
-}
-
-/// A grid as its file has it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FileGrid {
-    /// The values, where the file or [`GridPlace::over`] says.
-    pub raster: Raster,
-    /// What the file says about its coordinates.
-    pub system: Option<CoordinateSystem>,
-    /// What it says about its values.
-    pub facts: ValueFacts,
-}
 
 /// What follows the name of a file before the name of a variable or the number of a band in it.
 const BEFORE_PART: char = '#';
@@ -78,42 +24,6 @@ pub(super) fn file_and_part(path: &Path) -> (PathBuf, Option<String>) {
         is_known.then(|| (path.with_file_name(file), Some(part.to_owned())))
     });
     named.unwrap_or_else(|| (path.to_owned(), None))
-}
-
-impl FileGrid {
-    /// Returns a grid in other longitudes and latitudes in degrees from Greenwich, and another one as it is.
-    pub(super) fn in_degrees(mut self) -> Self {
-        let stated = self.system.as_ref().map(CoordinateSystem::stated);
-        self.facts.notes.extend(stated.and_then(|stated| stated.note()));
-        let Some((FileCoordinates::Known(known), factor, summand)) =
-            stated.and_then(FileCoordinates::in_degrees)
-        else {
-            return self;
-        };
-        let Rect { min, max } = self.raster.bounds();
-        let bounds = Rect::new(factor * min + summand, factor * max + summand);
-        let raster = Raster::from_values(bounds, self.raster.size(), self.raster.values().to_vec());
-        let system = self.system.map(|system| CoordinateSystem {
-            on_earth: Some(known),
-            unit: LengthUnit::Degree,
-            ..system
-        });
-        Self { raster, system, ..self }
-    }
-
-    /// Returns what the coordinates are. Longitudes may be from 0 to 360.
-    pub fn coordinates(&self) -> FileCoordinates {
-        let Rect { min, max } = self.raster.bounds();
-        let pixel = self.raster.pixel_size();
-        let can_be_degrees = min.y >= -90.0 - pixel.y
-            && max.y <= 90.0 + pixel.y
-            && min.x >= -180.0 - pixel.x
-            && max.x <= 360.0 + pixel.x;
-        match &self.system {
-            Some(system) if system.kind != CoordinateKind::Other => system.stated(),
-            _ => FileCoordinates::Unstated { can_be_degrees },
-        }
-    }
 }
 
 impl RasterFormat {

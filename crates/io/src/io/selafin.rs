@@ -14,23 +14,18 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, LAND};
-use super::{FormatSpec, MeshData, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::Grouped;
 
 /// TELEMAC.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "slf",
-    endings: &["slf"],
-    tail: "",
     purpose: "TELEMAC (SELAFIN): two files, mesh and boundary conditions",
     size: TypicalSize { bytes: 33.0, bytes_per_digit: 0.0 },
-    has_targets: false,
-    third: ThirdCoordinate::None,
+    has_open_boundary: true,
     beside: &[("cli", |out, mesh, data, meter| write_conditions(&mut meter.count(out), mesh, data))],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("slf", &["slf"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Bytes of the title, and the word after it that says that real numbers have eight bytes.

@@ -6,28 +6,14 @@
 use std::path::Path;
 
 use super::error::{Flaw, PlacedFlaw};
+use super::format_spec::ShapeFormatSpec;
+use super::formats::SHAPE_FORMATS;
 use super::geojson::Outline;
 use super::shapes::ShapeFile;
-use super::{DocumentPlane, FileCoordinates, Meter, ReadError, SHAPE_FORMATS};
+use super::{DocumentPlane, FileCoordinates, Meter, ReadError};
 use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_mesh::geometry::Rect;
-
-/// Reads the shapes of a file that can meet a rectangle, and counts its bytes.
-pub type ReadShapesNear = fn(&Path, Rect, &Meter) -> Result<ShapeFile, ReadError>;
-
-/// A file format of shapes, as its module describes it.
-pub struct ShapeFormatSpec {
-    /// The file name extensions, in lower case and without the dot; the usual one first.
-    pub endings: &'static [&'static str],
-    /// Reads the polygons of a file, and counts its bytes.
-    pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
-    /// Reads the points, lines and polygons of a file, and counts its bytes.
-    pub read_shapes: fn(&Path, &Meter) -> Result<ShapeFile, ReadError>,
-    /// Reads the shapes that can meet a rectangle in the coordinates of the file, after whole turns of
-    /// longitudes; `None` where the format does not tell the extent of a shape before its points.
-    pub read_shapes_near: Option<ReadShapesNear>,
-}
 
 /// Returns the endings of all formats, in lower case and without the dot.
 pub fn endings() -> Vec<&'static str> {

@@ -14,16 +14,11 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// SMS.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "2dm",
-    endings: &["2dm"],
-    tail: "",
     purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
     size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
-    has_targets: false,
+    has_open_boundary: true,
     third: ThirdCoordinate::Height,
-    beside: &[],
-    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
-    write_binary: None,
+    ..FormatSpec::new("2dm", &["2dm"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
 /// Nodes of a nodestring in one line.

@@ -13,19 +13,13 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangles without shared nodes.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "stl",
-    endings: &["stl"],
-    tail: "",
     purpose: "CAD and 3D printing: triangles only, without h̄",
     size: TypicalSize { bytes: 50.0, bytes_per_digit: 0.0 },
-    has_targets: false,
     third: ThirdCoordinate::Model,
-    beside: &[],
-    write: |out, mesh, data, meter| {
+    ..FormatSpec::new("stl", &["stl"], |out, mesh, data, meter| {
         meter.expect(bytes(mesh));
         write(&mut meter.count(out), mesh, data)
-    },
-    write_binary: None,
+    })
 };
 
 /// Bytes of the header (title and number of triangles), and of a triangle.

@@ -15,22 +15,18 @@ use std::io::{self, Write};
 
 use super::netcdf_writer::{AttributeValue, Attributes, Dataset, Kind, Variable, WriteRow};
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, Meter, ThirdCoordinate, TypicalSize};
+use super::{FormatSpec, MeshData, Meter, TypicalSize};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
 /// UGRID.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "ugrid",
-    endings: &["nc"],
-    tail: "",
     purpose: "Delft3D-FM (UGRID, NetCDF): with h̄ and boundary markers",
     size: TypicalSize { bytes: 52.0, bytes_per_digit: 0.0 },
     has_targets: true,
-    third: ThirdCoordinate::None,
-    beside: &[],
-    write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
-    write_binary: None,
+    ..FormatSpec::new("ugrid", &["nc"], |mut out, mesh, data, meter| {
+        write_metered(&mut out, mesh, data, meter)
+    })
 };
 
 /// The numbers of the dimensions in [`dimensions`].

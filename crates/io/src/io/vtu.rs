@@ -28,16 +28,13 @@ use meshbrush_mesh::mesh::Extract;
 
 /// VTK's unstructured grid.
 pub static FORMAT: FormatSpec = FormatSpec {
-    name: "vtu",
-    endings: &["vtu"],
-    tail: "",
     purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
     size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
     has_targets: true,
     third: ThirdCoordinate::Height,
-    beside: &[],
-    write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
-    write_binary: None,
+    ..FormatSpec::new("vtu", &["vtu"], |mut out, mesh, data, meter| {
+        write_metered(&mut out, mesh, data, meter)
+    })
 };
 
 /// Bytes of names in one line.

@@ -10,13 +10,14 @@ use super::functions::{
     Form, Function, Noun, Third, coordinates, find_function, find_noun, instruction, suggestion,
 };
 use super::lexer::{Lexer, Token};
-use super::program::{Compare, Op, Program, run};
+use super::program::{Compare, LARGE_STACK, Op, Program, run};
 
 /// The longest formula, in bytes.
 pub const MAX_LENGTH: usize = 64 * 1024;
 
 /// The deepest nesting, counting parentheses, calls, signs, and right sides of operators.
 pub const MAX_NESTING: usize = 200;
+const _: () = assert!(2 * MAX_NESTING < LARGE_STACK);
 
 /// Precedences, from the loosest. The right side of an operator binds at least as tightly as the operator's
 /// own precedence plus one.

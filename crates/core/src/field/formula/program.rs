@@ -107,7 +107,6 @@ impl Compare {
 pub(super) const SMALL_STACK: usize = 16;
 /// Slots for any formula that the parser accepts: at most two for each level of nesting, and one.
 pub(super) const LARGE_STACK: usize = 512;
-const _: () = assert!(2 * super::MAX_NESTING < LARGE_STACK);
 
 /// Instructions, and the number of stack slots they need.
 #[derive(Clone, Debug)]

@@ -19,7 +19,8 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
         2 => Setting::LargestDiameter(largest_diameter(choices, diameter)),
         3 => Setting::TransferShape(0.5 + 2.0 * choices.share()),
         4 | 5 => Setting::Spacing(SPACINGS[choices.below(SPACINGS.len())]),
-        6 | 7 => Setting::RefinementRule(if choices.below(4) == 0 {
+        7 => Setting::MaxLevel([None, Some(5), None, Some(9)][choices.below(4)]),
+        6 => Setting::RefinementRule(if choices.below(4) == 0 {
             RefinementRule::Vertex
         } else {
             RefinementRule::Area

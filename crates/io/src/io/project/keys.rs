@@ -48,7 +48,7 @@ const KEYS_OF_VERSION: (u64, &str) = (12, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins pins_part \
-    paths spacing transfer layers gradation rule max_triangles max_memory
+    paths spacing transfer layers gradation rule max_triangles max_memory max_level
 unit: none m km degrees
 background: name part bounds opacity
 domain: bounds shape polygons projection cuts

@@ -77,6 +77,8 @@ pub(super) struct Saved {
     max_triangles: usize,
     /// The memory budget in bytes.
     max_memory: u64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    max_level: Option<u32>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -265,6 +267,7 @@ impl Saved {
             rule: settings.rule.into(),
             max_triangles: settings.max_triangles,
             max_memory: settings.max_memory as u64,
+            max_level: settings.max_level,
         }
     }
 
@@ -357,6 +360,7 @@ impl Saved {
             rule: self.rule.into(),
             max_triangles: self.max_triangles,
             max_memory: usize::try_from(self.max_memory).unwrap_or(usize::MAX),
+            max_level: self.max_level,
         };
         settings.checked().map_err(sentence)
     }

@@ -35,11 +35,6 @@ pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
 fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item = String> {
     let is_fitted = recipe.settings.domain.outline_file().is_some() && boundary != BoundaryTreatment::Report;
     let removes_parts = recipe.settings.domain.parts.is_some_and(|parts| parts != SavedParts::All);
-    let level = recipe.settings.mesh.max_level.map(|level| {
-        format!(
-            "The window has no deepest level: max_level = {level} is left out, and the mesh can be finer."
-        )
-    });
     let parts = (removes_parts && !is_fitted).then(|| {
         "The window keeps all parts of a mesh that is not fitted to polygons: `parts` is left out.".to_owned()
     });
@@ -47,5 +42,5 @@ fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item 
         let file = recipe.file().display();
         format!("The window writes no files of [[output]]; `meshbrush mesh {file}` does.")
     });
-    [level, parts, outputs].into_iter().flatten()
+    [parts, outputs].into_iter().flatten()
 }

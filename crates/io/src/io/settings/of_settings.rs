@@ -23,7 +23,7 @@ impl<L> SavedSettings<L> {
             max_triangles: Some(settings.max_triangles),
             max_memory: (settings.max_memory != Settings::MAX_MEMORY)
                 .then(|| Bytes(settings.max_memory).exactly()),
-            max_level: None,
+            max_level: settings.max_level,
         };
         let Transfer { h_min, h_risk, h_max, shape } = settings.transfer;
         let limits = SavedLimits {

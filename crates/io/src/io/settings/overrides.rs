@@ -69,6 +69,7 @@ impl<L> SavedSettings<L> {
             rule: self.mesh.rule.map_or(settings.rule, Into::into),
             max_triangles: self.mesh.max_triangles.unwrap_or(settings.max_triangles),
             max_memory: self.mesh.memory()?.unwrap_or(settings.max_memory),
+            max_level: self.mesh.max_level.or(settings.max_level),
             ..settings
         })
     }

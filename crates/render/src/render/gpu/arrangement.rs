@@ -20,9 +20,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::GpuError;
 use super::chunks::ChunkedArray;
-use super::mesh_copy::Gpu;
+use super::device::Gpu;
+use super::error::GpuError;
 use crate::colormap::LEVELS;
 use crate::render::software::on_drawing_threads;
 use crate::scene::{InnerPoint, coarsest_represented};

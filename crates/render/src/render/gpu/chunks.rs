@@ -1,6 +1,6 @@
 //! Growing arrays in as many buffers as the limits of the device require.
 
-use super::GpuError;
+use super::error::GpuError;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::Triangle;
 

@@ -1,20 +1,17 @@
 //! One copy of a mesh and of the pieces in place of some of its triangles.
 
 use std::ops::Range;
-use std::sync::OnceLock;
 
-use super::GpuError;
 use super::arrangement::{Arrangement, Span};
 use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS};
-use super::mesh_pass::{uniform_buffer, uniform_entry};
+use super::device::{Gpu, STORAGE_BUFFERS};
+use super::error::GpuError;
+use super::pipelines::{uniform_buffer, uniform_entry};
 use super::sending::{joined, send, send_joined, send_ranges};
 use crate::render::draw_flags::DrawFlags;
 use crate::scene::Style;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Progress, Triangle, TriangleId};
-
-/// Storage buffers that the shader reads: triangles, nodes, flags and the order of triangles.
-pub(super) const STORAGE_BUFFERS: u32 = 3 + NODE_BUFFERS as u32;
 
 /// Changed ranges of words of flags with at most this many words between them are written as one. Writing
 /// many words takes no longer than writing a few.
@@ -25,85 +22,6 @@ const MOST_WORDS: usize = 1 << 28;
 
 /// Size of the uniform `Part` of mesh.wgsl in bytes: three u32, and padding that some drivers require.
 const PART_BYTES: usize = 16;
-
-/// The handles with which buffers are made, filled and bound.
-pub(super) struct Gpu {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    limits: ChunkLimits,
-    /// Made for the first mesh: a device for the software renderer may have no storage buffers.
-    layout: OnceLock<wgpu::BindGroupLayout>,
-    /// A buffer that is bound in place of buffers that are not needed.
-    nothing: OnceLock<wgpu::Buffer>,
-}
-
-impl Gpu {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, limits: ChunkLimits) -> Self {
-        let (layout, nothing) = (OnceLock::new(), OnceLock::new());
-        Self { device: device.clone(), queue: queue.clone(), limits, layout, nothing }
-    }
-
-    pub(super) fn layout(&self) -> &wgpu::BindGroupLayout {
-        self.layout.get_or_init(|| bind_group_layout(&self.device))
-    }
-
-    fn nothing(&self) -> &wgpu::Buffer {
-        self.nothing.get_or_init(|| {
-            self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("nothing"),
-                size: size_of::<LatticePoint>() as u64,
-                usage: wgpu::BufferUsages::STORAGE,
-                mapped_at_creation: false,
-            })
-        })
-    }
-
-    /// Fails where shaders cannot read as many buffers as a mesh needs.
-    pub(super) fn check_device(&self) -> Result<(), GpuError> {
-        let available = self.device.limits().max_storage_buffers_per_shader_stage;
-        let needed = STORAGE_BUFFERS;
-        if available < needed { Err(GpuError::TooFewStorageBuffers { available, needed }) } else { Ok(()) }
-    }
-
-    pub(super) fn limits(&self) -> ChunkLimits {
-        self.limits
-    }
-
-    pub(super) fn device(&self) -> &wgpu::Device {
-        &self.device
-    }
-
-    pub(super) fn queue(&self) -> &wgpu::Queue {
-        &self.queue
-    }
-
-    /// Returns the most bytes of a buffer that a shader can read.
-    pub(super) fn largest_binding(&self) -> u64 {
-        let limits = self.device.limits();
-        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
-    }
-
-    pub(super) fn check_nodes(&self, nodes: usize) -> Result<(), GpuError> {
-        let limit = self.limits.max_nodes();
-        if nodes > limit { Err(GpuError::TooManyNodes { nodes, limit }) } else { Ok(()) }
-    }
-}
-
-fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let storage = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let entries: Vec<_> = (0..STORAGE_BUFFERS).map(storage).chain([uniform_entry(STORAGE_BUFFERS)]).collect();
-    device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
-}
 
 /// The numbers of entries in the two arrays of a mesh.
 #[derive(Clone, Copy)]

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use super::GpuError;
 use super::arrangement::Span;
 use super::chunks::ChunkLimits;
-use super::mesh_copy::{Counts, Gpu, MeshCopy};
+use super::device::Gpu;
+use super::error::GpuError;
+use super::mesh_copy::{Counts, MeshCopy};
 use super::mesh_pass::MeshSight;
 use crate::scene::{Camera, Style};
 use meshbrush_mesh::geometry::{Lattice, LatticeRect};

@@ -1,7 +1,7 @@
 //! The GPU renderer without a window.
 
-use super::mesh_pass::new_texture;
 use super::picture::begin_pass;
+use super::pipelines::new_texture;
 use super::{ChunkLimits, GpuError, GpuRenderer, device_descriptor};
 use crate::render::Image;
 use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, ShownSurface, SpaceView, Style};

@@ -1,8 +1,8 @@
 //! The render pipeline for the overlay above the mesh.
 
-use super::GpuError;
+use super::error::GpuError;
 use super::layout::OverlayView;
-use super::mesh_pass::{
+use super::pipelines::{
     new_texture, render_pipeline, shader_module, texel_entry, uniform_buffer, uniform_entry,
 };
 use super::shaders::OVERLAY;

@@ -1,6 +1,6 @@
 //! The picture of the mesh, kept as a texture.
 
-use super::GpuError;
+use super::error::GpuError;
 use super::mesh_pass::MeshPass;
 use super::mirror::MeshMirror;
 use super::shown_image::ShownImage;

@@ -1,7 +1,7 @@
 //! A picture in a texture, shown on a canvas of the same size.
 
-use super::GpuError;
-use super::mesh_pass::{new_texture, render_pipeline, shader_module, texel_entry};
+use super::error::GpuError;
+use super::pipelines::{new_texture, render_pipeline, shader_module, texel_entry};
 use super::shaders::BLIT;
 use crate::render::Image;
 use crate::render::software::PxRect;

@@ -3,12 +3,12 @@
 //! They read the buffers of the plan, and one more with the heights of the nodes. That the plan has pipelines
 //! of its own keeps it as fast as it was: it needs neither heights nor a buffer of depths.
 
-use super::GpuError;
 use super::chunks::new_buffer;
+use super::device::STORAGE_BUFFERS;
+use super::error::GpuError;
 use super::layout::SpaceUniform;
-use super::mesh_copy::STORAGE_BUFFERS;
-use super::mesh_pass::{new_texture, pipeline_from, shader_module, uniform_buffer, uniform_entry};
 use super::mirror::MeshMirror;
+use super::pipelines::{new_texture, pipeline_from, shader_module, uniform_buffer, uniform_entry};
 use super::shaders::SPACE;
 use crate::scene::{NO_HEIGHT, NodeHeights, SpaceView, Style};
 
