@@ -364,7 +364,7 @@ const tests = {
       const gestures = { start: start.start, edits: edits.slice(0, count).map((edit) => edit.does) };
       const packed = zlib.deflateSync(JSON.stringify(gestures), { level: 9 }).toString("base64url");
       await page.goto("about:blank");
-      await page.goto(`${url}#2.g.${packed}.${Buffer.from("{}").toString("base64url")}`);
+      await page.goto(`${url}#1.g.${packed}.${Buffer.from("{}").toString("base64url")}`);
       assert.equal(await settled(page), edits[count - 1].gives.mesh.fingerprint, `after ${count} edits`);
       assert.equal((await message(page)) ?? "", "");
     }

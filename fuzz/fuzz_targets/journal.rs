@@ -11,7 +11,7 @@ use meshbrush_io::io::Meter;
 use meshbrush_io::io::journal::{self, Journal, Left};
 use packing::{Parts, change, hold, packed, sample, unpacked};
 
-const MAGIC: &[u8] = b"MBJOUR03";
+const MAGIC: &[u8] = b"MBJOUR01";
 const HEAD: usize = 17;
 
 /// The parts of a whole project and of a gesture, as a journal has them.

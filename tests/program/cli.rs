@@ -842,7 +842,6 @@ fn options_that_change_nothing_are_named() {
     let folder = Folder::new("cli-no-effect");
     for (arguments, note) in [
         ("mesh --transfer-shape 2", "--transfer-shape changes nothing without --risk"),
-        ("mesh --resolution 64", "--resolution changes nothing: every layer is asked at its own resolution"),
         ("mesh --boundary report", "--boundary changes nothing without --region"),
         ("mesh --quantity x", "--quantity changes nothing: no file with data"),
         ("mesh --quantity x -o m.svg", "--quantity changes nothing: no file with data"),

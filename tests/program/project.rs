@@ -19,7 +19,6 @@ use meshbrush_core::layers::{
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::path::Weights;
 use meshbrush_core::raster::{Raster, RasterPyramid, Tile, TilePlace};
-use meshbrush_io::io::geojson;
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -455,79 +454,31 @@ fn archives_packed_by_other_tools_are_opened() {
 }
 
 /// The version that the program writes.
-const VERSION: &str = "\"version\": 12";
-
-/// Returns the settings as if an older program had written them.
-fn of_version(text: &str, version: u32) -> String {
-    assert!(text.contains(VERSION), "{text}");
-    text.replace(VERSION, &format!("\"version\": {version}"))
-}
+const VERSION: &str = "\"version\": 1";
 
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace(VERSION, "\"version\": 13, \"seasons\": [1, 2]");
+        let newer = text.replace(VERSION, "\"version\": 2, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 13", "up to version 12"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 2", "up to version 1."]);
 }
 
-/// The curve from risk to diameter ended at the smallest diameter.
 #[test]
-fn in_a_project_of_version_3_the_diameter_at_risk_1_is_the_smallest() {
-    let older = rewritten(|text| of_version(text, 3));
-    let transfer = opened(&older).unwrap().settings.transfer;
+fn the_diameter_at_risk_1_is_the_smallest_unless_another_is_given() {
+    let transfer = opened(&bytes_of(&small())).unwrap().settings.transfer;
     assert_eq!(transfer.h_risk, transfer.h_min);
-    let newer = rewritten(|text| text.replace("\"h_max\":", "\"h_risk\": 0.01, \"h_max\":"));
-    assert_eq!(opened(&newer).unwrap().settings.transfer.h_risk, 0.01);
+    let other = rewritten(|text| text.replace("\"h_max\":", "\"h_risk\": 0.01, \"h_max\":"));
+    assert_eq!(opened(&other).unwrap().settings.transfer.h_risk, 0.01);
     let wrong = rewritten(|text| text.replace("\"h_max\":", "\"h_risk\": 1e-9, \"h_max\":"));
     refused(&wrong, &[NAME, "The diameter at risk 1, 1e-9, must be from the smallest"]);
 }
 
 #[test]
-fn projects_of_versions_2_4_and_5_open() {
-    for version in [2, 4, 5] {
-        let older = rewritten(|text| of_version(text, version));
-        assert!(opened(&older).unwrap() == small(), "version {version}");
-    }
-    refused(&rewritten(|text| of_version(text, 1)), &["version 1 of its format", "reads versions 2 to 12"]);
-}
-
-/// The polygons of the domain were text, and all points stood in the settings.
-#[test]
-fn a_project_of_version_11_opens() {
-    let older = packed(unpacked(&bytes_of(&small())).into_iter().map(|(name, content)| match &name[..] {
-        "settings.json" => {
-            let text = of_version(str::from_utf8(&content).unwrap(), 11);
-            let (before, after) = text.split_once(",\n    \"polygons\": \"domain.0\"").unwrap();
-            (name, [before, after].concat().into())
-        }
-        "domain.0" => {
-            let mut text = Vec::new();
-            geojson::write(&mut text, small().settings.domain.region().unwrap().polygons()).unwrap();
-            ("domain.geojson".to_owned(), text)
-        }
-        _ => (name, content),
-    }));
-    assert!(opened(&older).unwrap() == small());
-}
-
-#[test]
-fn a_project_of_version_7_has_names_and_no_types_of_the_boundary() {
-    let older = rewritten(|text| {
-        let marks =
-            "\"boundary_marks\": {\"splits\": [], \"names\": [{\"at\": [0.5, 0.05], \"name\": \"Rock\"}]}";
-        of_version(text, 7).replace("\"spacing\":", &format!("{marks}, \"spacing\":"))
-    });
-    let marks = opened(&older).unwrap().settings.boundary_marks;
-    assert_eq!(marks.names, [(dvec2(0.5, 0.05), "Rock".to_owned())]);
-    assert!(marks.splits.is_empty() && marks.types.is_empty());
-}
-
-#[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        (VERSION, "\"version\": 8, \"seasons\": 4", &["line 3", "seasons"]),
+        (VERSION, "\"version\": 1, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),
@@ -570,7 +521,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        [VERSION, &format!("\"version\": 12, \"{long}\": 1")],
+        [VERSION, &format!("\"version\": 1, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -579,7 +530,7 @@ fn errors_stay_short_for_long_values() {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
                 VERSION,
-                "\"version\": 13",
+                "\"version\": 2",
                 usize::from(from.contains("written")),
             )
         });

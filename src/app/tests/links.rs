@@ -36,7 +36,7 @@ fn a_link_opens_the_same_mesh_view_and_tool() {
     wheel(&mut first, at, 300.0);
     send(&mut first, Command::from(ShellCommand::Use(&PAN)));
     let link = copied(&mut first);
-    assert!(link.starts_with("#2.") && link.len() < 30_000, "{} characters", link.len());
+    assert!(link.starts_with("#1.") && link.len() < 30_000, "{} characters", link.len());
     assert!(notice(&first).contains("The link was copied"), "{}", notice(&first));
     let area = |window: &Window| window.state().view().camera.unwrap().visible_world();
     let mut second = window();

@@ -166,7 +166,7 @@ fn edits_are_asked_about_before_unsaved_work_is_restored() {
 fn a_journal_that_cannot_be_read_is_named() {
     let folder = folder("unreadable");
     let file = folder.join("1-0.journal");
-    fs::write(&file, "MBJOUR01 of an older program").unwrap();
+    fs::write(&file, "MBJOUR99 of another program").unwrap();
     let mut window = window();
     window.state_mut().keep_journal_in(folder);
     let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());

@@ -283,10 +283,6 @@ pub struct InputArguments {
     #[arg(long)]
     pub rule: Option<RuleArgument>,
 
-    /// Without effect since layers are asked at their own resolution
-    #[arg(long, value_name = "N", hide = true)]
-    pub resolution: Option<u32>,
-
     /// Most triangles allowed [default: those of the project, else 50000000]
     #[arg(long, value_name = "N")]
     pub max_triangles: Option<usize>,

@@ -103,10 +103,6 @@ impl Input {
             .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
             (is_known && typed.h_risk.is_some() && !self.settings.layer.iter().any(SavedLayer::is_risk))
                 .then_some("--h-risk changes nothing without --risk or --risk-raster."),
-            typed
-                .resolution
-                .is_some()
-                .then_some("--resolution changes nothing: every layer is asked at its own resolution."),
             (is_known && typed.boundary.is_some() && self.settings.domain.outline_file().is_none())
                 .then_some("--boundary changes nothing without --region or --land."),
         ];

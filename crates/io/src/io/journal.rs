@@ -38,7 +38,7 @@ pub use left::{Abandoned, Left, left};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
 
-const MAGIC: &[u8; 8] = b"MBJOUR03";
+const MAGIC: &[u8; 8] = b"MBJOUR01";
 const HEAD: usize = 17;
 const ENDING: &str = "journal";
 /// The ending of a journal whose first record is not complete.

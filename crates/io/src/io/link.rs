@@ -1,12 +1,9 @@
 //! A document as the part of a link after `#`, with how it is looked at.
 //!
 //! ```text
-//! 1.PROJECT            the bytes of a project in base64 for addresses
-//! 2.p.PROJECT.VIEW     and the view, as JSON in base64
-//! 2.g.GESTURES.VIEW    what was done since the document was opened, where its pixels would be too long
+//! 1.p.PROJECT.VIEW     the bytes of a project in base64 for addresses, and the view, as JSON in base64
+//! 1.g.GESTURES.VIEW    what was done since the document was opened, where its pixels would be too long
 //! ```
-//!
-//! A document without a view is written in version 1, which older programs read, too.
 
 use std::path::Path;
 
@@ -20,7 +17,7 @@ use meshbrush_core::document::Document;
 use meshbrush_mesh::text::Grouped;
 
 /// The version that is written, and the newest that is read.
-const VERSION: u32 = 2;
+const VERSION: u32 = 1;
 /// Most characters of a link that is written: browsers and mail programs pass on so many.
 pub const MOST_CHARACTERS: usize = 30_000;
 /// Most characters of a link that is read.
@@ -109,9 +106,6 @@ pub fn write(document: &Document, view: &LinkView) -> Result<String, String> {
 
 fn with_view(kind: char, bytes: &[u8], view: &LinkView) -> Result<String, String> {
     let packed = URL_SAFE_NO_PAD.encode(bytes);
-    if kind == 'p' && *view == LinkView::default() {
-        return Ok(format!("1.{packed}"));
-    }
     let view = serde_json::to_vec(view).map_err(|error| format!("The view cannot be packed: {error}."))?;
     Ok(format!("{VERSION}.{kind}.{packed}.{}", URL_SAFE_NO_PAD.encode(view)))
 }
@@ -135,9 +129,6 @@ pub fn read(link: &str) -> Result<Linked, String> {
             "The link was made by a newer Meshbrush (version {version} of links, and this one reads up to {VERSION}). Load \
              the page again to get the newest."
         ));
-    }
-    if version < 2 {
-        return Ok(Linked { document: of_project(packed)?, view: LinkView::default() });
     }
     let parts: Vec<&str> = packed.splitn(3, '.').collect();
     let &[kind, packed, view] = &parts[..] else { return Err(DAMAGED.into()) };
@@ -221,7 +212,6 @@ mod tests {
         for view in [LinkView::default(), view()] {
             let link = write(&document(), &view).unwrap();
             assert!(is_of_a_link(&link), "{link}");
-            assert_eq!(link.starts_with("1."), view == LinkView::default());
             let read = read(&link).unwrap();
             assert_eq!((Project::of(&read.document), read.view), (Project::of(&document()), view));
         }
@@ -231,7 +221,7 @@ mod tests {
     fn paint_that_is_too_long_is_sent_as_the_gestures_that_made_it() {
         let painted = painted(4);
         let link = write(&painted, &view()).unwrap();
-        assert!(link.starts_with("2.g.") && is_of_a_link(&link), "{}", &link[..20]);
+        assert!(link.starts_with("1.g.") && is_of_a_link(&link), "{}", &link[..20]);
         assert!(link.len() < 10_000, "{} characters", link.len());
         let read = read(&link).unwrap();
         assert_eq!((Project::of(&read.document), read.view), (Project::of(&painted), view()));
@@ -251,7 +241,7 @@ mod tests {
             write(&painted(2), &view()).unwrap(),
         ];
         for link in whole {
-            let parts = if link.starts_with('1') { 1 } else { link.rfind('.').unwrap() };
+            let parts = link.rfind('.').unwrap();
             for cut in [0, 1, 2, 10, link.len() / 2, parts, link.len() - 1] {
                 let problem = read(&link[..cut]).unwrap_err();
                 assert!(problem.starts_with("The link is damaged"), "{cut}: {problem}");
@@ -267,7 +257,8 @@ mod tests {
         for area in ["[0,0,0,1]", "[0,0,1e999,1]", "[0,0,1]"] {
             let view = URL_SAFE_NO_PAD.encode(format!("{{\"area\":{area}}}"));
             let packed = write(&document(), &LinkView::default()).unwrap();
-            let problem = read(&format!("2.p.{}.{view}", &packed[2..])).unwrap_err();
+            let (project, _) = packed.rsplit_once('.').unwrap();
+            let problem = read(&format!("{project}.{view}")).unwrap_err();
             assert!(problem.starts_with("The link is damaged"), "{area}: {problem}");
         }
         let long = format!("1.{}", "A".repeat(MOST_READ));

@@ -64,7 +64,6 @@ impl PathCertificate {
     /// # Errors
     /// Fails as [`Certificate::new`] does.
     pub fn new(solution: &Solution, task: &CertificateTask) -> Result<Self, PathError> {
-        let stop: Arc<AtomicBool> = Arc::default();
         let count = solution.stops.len();
         let leg = |(number, ends): (usize, &[usize])| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
@@ -72,9 +71,8 @@ impl PathCertificate {
             let figures = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
             let solution = Solution { walls, ..figures };
             let upper = solution.upper;
-            let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })
+            let certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })
                 .map_err(|error| error.of_leg(number, count))?;
-            certificate.stop = Arc::clone(&stop);
             Ok(Leg { certificate, solution, searches: MOST_SEARCHES })
         };
         let legs = solution.stops.windows(2).enumerate().map(leg).collect::<Result<_, _>>()?;
@@ -142,9 +140,12 @@ impl PathCertificate {
         self.legs.iter().map(|leg| leg.certificate.nodes()).sum()
     }
 
-    /// Returns a signal that stops the work on all legs, like [`Certificate::stop_signal`].
-    pub fn stop_signal(&self) -> Arc<AtomicBool> {
-        self.legs.first().map(|leg| leg.certificate.stop_signal()).unwrap_or_default()
+    /// Returns this work, which a signal stops on all legs, like [`Certificate::stop_signal`].
+    pub fn stopped_by(mut self, stop: &Arc<AtomicBool>) -> Self {
+        for leg in &mut self.legs {
+            leg.certificate.stop = Arc::clone(stop);
+        }
+        self
     }
 
     /// Solves one programme, or takes a step of the search for a better path, for the leg with the widest

@@ -45,7 +45,6 @@ mod programme;
 mod proof;
 mod quadratic;
 mod setup;
-mod solver;
 mod task;
 mod triangle;
 mod under_way;
@@ -61,7 +60,7 @@ use crate::geometry::Rect;
 use crate::mesh::{Limits, Mesh, Progress};
 use marking::{bisections, estimates};
 use minorant::Minorant;
-use programme::{Programme, ProgrammeSolution};
+use programme::{Programme, ProgrammeSolution, Unsolved};
 use proof::proven_gain;
 use quadratic::{QuadraticElement, QuadraticSpace};
 use triangle::FlatTriangle;
@@ -228,8 +227,8 @@ impl Certificate {
         Ok(self.end)
     }
 
-    /// Does a slice of [`Self::advance`], some milliseconds on one thread. It is done once the programme is
-    /// solved and the mesh refined, or the work has ended or was told to stop.
+    /// Does a slice of [`Self::advance`]: some milliseconds on one thread, except that the programme is solved
+    /// in one. It is done once the mesh is refined, or the work has ended or was told to stop.
     ///
     /// # Errors
     /// Fails as [`Self::advance`] does.
@@ -244,17 +243,14 @@ impl Certificate {
                 Progress::More => Stage::Minorants(found),
                 Progress::Done => Stage::Edges(found),
             },
-            Stage::Edges(found) => Stage::Begin(self.minorants_of(&work.space, found)?),
-            Stage::Begin(minorants) => match self.programme(&work, &minorants).solver() {
-                Some(solver) => Stage::Solve(minorants, Box::new(solver)),
-                None => return Ok(self.solver_failed()),
-            },
-            Stage::Solve(minorants, mut solver) => match solver.advance() {
-                Progress::More => Stage::Solve(minorants, solver),
-                Progress::Done => match self.programme(&work, &minorants).solution(&solver) {
-                    Some(solution) => Stage::Solved(minorants, solution),
-                    None => return Ok(self.solver_failed()),
-                },
+            Stage::Edges(found) => Stage::Solve(self.minorants_of(&work.space, found)?),
+            Stage::Solve(minorants) => match self.programme(&work, &minorants).solve(self.stop_signal()) {
+                Ok(solution) => Stage::Solved(minorants, solution),
+                Err(Unsolved::Stopped) => return Ok(Progress::Done),
+                Err(Unsolved::Failed) => {
+                    self.end = Some(CertificateEnd::SolverFailed);
+                    return Ok(Progress::Done);
+                }
             },
             Stage::Solved(minorants, solution) => {
                 self.take(&work, &minorants, &solution);
@@ -290,11 +286,6 @@ impl Certificate {
             unit: self.task.upper,
             accuracy: (ACCURACY * self.task.width).clamp(1e-8, 1e-4),
         }
-    }
-
-    fn solver_failed(&mut self) -> Progress {
-        self.end = Some(CertificateEnd::SolverFailed);
-        Progress::Done
     }
 
     /// Takes the bound of a solution, and refines the mesh for the next programme.

@@ -173,7 +173,7 @@ fn a_journal_that_cannot_be_read_is_named_and_kept() {
     drop(journal);
     let bytes = fs::read(&path).unwrap();
     let mut other_version = bytes.clone();
-    other_version[7] = b'1';
+    other_version[7] = b'2';
     for (content, words) in [(&other_version[..], "another version"), (&bytes[..bytes.len() - 1], "damaged")]
     {
         fs::write(&path, content).unwrap();

@@ -15,23 +15,23 @@
 //! Parts of a kind are numbered from 0 in the order of the layers. Layers have the vocabulary of recipes
 //! ([`super::layers`]). All limits are in [`limits`]: writing and reading check them alike.
 //!
-//! Up to version 11 all points and threats were in `settings.json`, and the polygons of the domain in
-//! `domain.geojson`. Version 2 had no pins, paths and corridors. In version 3 the curve from risk to diameter
-//! ended at the smallest diameter, and paths had no names. Version 1, which had no layers, is not read.
-//!
 //! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
 //! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive
 //! detects damage. There are no dates: equal documents give equal bytes, and saving a project that was just
 //! opened gives the same file. The history is not saved.
 //!
-//! The version grows whenever an older program could not read the file correctly, which includes any new
-//! field or word: a test keeps the list of all of them. A program reads the versions from 2 up to its own.
+//! # How the format grows
+//!
+//! - A program refuses a file of a newer version, with a sentence that names both versions.
+//! - A new key is optional, is left out where it has its default value, and keeps the version. A program that
+//!   does not know the key refuses only the files that use it, as it refuses every unknown key: a document is
+//!   never read in part.
+//! - A key or part that changes its meaning, is removed, or becomes required raises the version. A program
+//!   goes on reading all versions before its own.
 
 mod archive;
 mod changes;
 pub(super) mod embedded;
-#[cfg(test)]
-mod keys;
 mod limits;
 mod lists;
 mod packing;
@@ -69,7 +69,7 @@ use settings::Saved;
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u64 = 12;
+const VERSION: u64 = 1;
 const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";

@@ -6,19 +6,17 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::super::error::{Flaw, PlacedFlaw};
-use super::super::{Meter, geojson, png};
+use super::super::{Meter, png};
 use super::archive::{Archive, ArchivePart, Unpacking};
 use super::part_names::{PartData, PartNames};
 use super::{BACKGROUND, SETTINGS, lists, pixels};
 use meshbrush_core::document::Picture;
-use meshbrush_core::domain::{CutFrame, Domain, DomainShape, OutlineOnEarth, Polygon, Region, RegionError};
+use meshbrush_core::domain::{CutFrame, Domain, DomainShape, OutlineOnEarth, Polygon};
 use meshbrush_core::layers::{Mask, ShapeList, Shapes, Threats};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
 
-/// The polygons of the domain in projects up to version 11.
-const OLD_DOMAIN: &str = "domain.geojson";
 /// The names of parts in error messages.
 const DOMAIN: &str = "domain";
 const RASTER: &str = "raster";
@@ -37,40 +35,31 @@ pub(super) struct PartReader<'b, 'a> {
 }
 
 impl PartReader<'_, '_> {
-    /// Returns the shape of a domain from the polygons of its part. Without `cuts`, the rectangles that cut
-    /// it are found, as projects up to version 11 have none.
+    /// Returns the shape of a domain from the polygons of its part.
     pub fn domain(
         &mut self,
         name: Option<&str>,
         bounds: Rect,
         on_earth: &OutlineOnEarth,
-        cuts: Option<Vec<CutFrame>>,
+        cuts: Vec<CutFrame>,
     ) -> Result<DomainShape, PlacedFlaw> {
         if let Some(PartData::Region(region)) = name.and_then(|name| self.names.get(name))
             && self.polygons.is_none()
             && *region.frame() == bounds
-            && cuts.as_ref().is_none_or(|cuts| region.cuts() == cuts)
+            && region.cuts() == cuts
         {
             return Ok(DomainShape::Region(region.clone()));
         }
-        let polygons = match (self.polygons.take(), name) {
-            (Some(polygons), _) => polygons,
-            (None, Some(name)) => self.list(name, DOMAIN)?.polygons,
-            (None, None) => self.old_polygons()?,
+        let polygons = match self.polygons.take() {
+            Some(polygons) => polygons,
+            None => self.list(name.unwrap_or(DOMAIN), DOMAIN)?.polygons,
         };
-        let region = stored_region(polygons, bounds, on_earth, cuts);
-        let region = region.map_err(|error| Flaw::Syntax(error.to_string()))?;
-        if let Some(name) = name {
+        let domain = Domain::of_stored_polygons(polygons, bounds, on_earth);
+        let domain = domain.map_err(|error| Flaw::Syntax(error.to_string()))?.cut_by(cuts);
+        if let (Some(name), Some(region)) = (name, domain.region()) {
             self.names.insert(name, PartData::Region(region.clone()));
         }
-        Ok(DomainShape::Region(region))
-    }
-
-    fn old_polygons(&self) -> Result<Vec<Polygon>, PlacedFlaw> {
-        let text = part(self.archive, OLD_DOMAIN)?.bytes(self.meter);
-        let text = text.map_err(|flaw| in_part(flaw, DOMAIN))?;
-        let outline = geojson::parse(&text[..]).map_err(|flaw| flaw.within(DOMAIN))?;
-        Ok(geojson::without_names(outline.polygons))
+        Ok(domain.shape)
     }
 
     /// Returns the picture behind the mesh.
@@ -166,20 +155,6 @@ impl PartReader<'_, '_> {
         let read = read(&mut unpacking).and_then(|read| unpacking.finish().map(|()| read));
         read.map_err(|flaw| in_part(flaw, what))
     }
-}
-
-fn stored_region(
-    polygons: Vec<Polygon>,
-    bounds: Rect,
-    on_earth: &OutlineOnEarth,
-    cuts: Option<Vec<CutFrame>>,
-) -> Result<Arc<Region>, RegionError> {
-    let domain = Domain::of_stored_polygons(polygons, bounds, on_earth)?;
-    let domain = match cuts {
-        Some(cuts) => domain.cut_by(cuts),
-        None => domain,
-    };
-    domain.region().cloned().ok_or(RegionError::NoArea)
 }
 
 /// Returns a part that must be there.

@@ -23,14 +23,14 @@ pub(super) struct SavedPaths {
     /// x and y of each place of each path, from the start to the goal.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     routes: Vec<Vec<[f64; 2]>>,
-    /// Since version 4: the names of paths, in their order; an empty one is none.
+    /// The names of paths, in their order; an empty one is none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     names: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cost: Option<SavedCost>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     keep_out: Vec<SavedKeepOut>,
-    /// Since version 7: the least distance from the outline and from keep-out regions.
+    /// The least distance from the outline and from keep-out regions.
     #[serde(default, skip_serializing_if = "is_zero")]
     clearance: f64,
 }

@@ -26,9 +26,6 @@ use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use meshbrush_mesh::text::{Grouped, Number, excerpt};
 
-/// The oldest version that is read.
-const OLDEST_VERSION: u64 = 2;
-
 /// The fields that every version of the format has.
 #[derive(Deserialize)]
 struct Head {
@@ -46,15 +43,13 @@ pub(super) struct Saved {
     version: u64,
     written_by: String,
     name: String,
-    /// Missing in files of older versions, and where there is none.
+    /// Missing where there is none.
     #[serde(default, skip_serializing_if = "SavedUnit::is_none")]
     unit: SavedUnit,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     background: Option<SavedBackground>,
     pub(super) domain: SavedDomain,
     boundary: SavedBoundary,
-    /// Missing in files of older versions.
-    #[serde(default)]
     cleaning: SavedCleaning,
     #[serde(default, skip_serializing_if = "SavedMarks::is_empty")]
     boundary_marks: SavedMarks,
@@ -64,7 +59,6 @@ pub(super) struct Saved {
     /// The part with the pins, where there are many.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pins_part: Option<String>,
-    /// Missing in files of older versions.
     #[serde(default, skip_serializing_if = "SavedPaths::is_empty")]
     paths: SavedPaths,
     spacing: f64,
@@ -87,15 +81,15 @@ pub(super) struct SavedDomain {
     /// x and y of the lower left corner, then of the upper right one.
     pub(super) bounds: [f64; 4],
     shape: SavedShape,
-    /// The part with its polygons, since version 12.
+    /// The part with its polygons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     polygons: Option<String>,
-    /// As PROJ writes it; since version 6.
+    /// As PROJ writes it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     projection: Option<String>,
-    /// What cuts polygons off from their surroundings; since version 12.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    cuts: Option<Vec<SavedCut>>,
+    /// What cuts polygons off from their surroundings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    cuts: Vec<SavedCut>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -123,7 +117,6 @@ struct SavedMarks {
     /// x and y of each place.
     splits: Vec<[f64; 2]>,
     names: Vec<SavedName>,
-    /// Since version 8.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     types: Vec<SavedPieceType>,
 }
@@ -159,12 +152,6 @@ enum SavedParts {
     WithShare(f64),
 }
 
-impl Default for SavedCleaning {
-    fn default() -> Self {
-        Self { parts: SavedParts::Largest, keep_pinches: false }
-    }
-}
-
 impl From<Cleaning> for SavedCleaning {
     fn from(cleaning: Cleaning) -> Self {
         let parts = match cleaning.parts {
@@ -191,7 +178,7 @@ impl From<SavedCleaning> for Cleaning {
 #[serde(deny_unknown_fields)]
 struct SavedTransfer {
     h_min: f64,
-    /// Since version 4; the smallest diameter where it is missing.
+    /// The smallest diameter where it is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     h_risk: Option<f64>,
     h_max: f64,
@@ -245,7 +232,7 @@ impl Saved {
                 },
                 polygons: settings.domain.region().cloned().map(PartData::Region).and_then(name_of),
                 projection: settings.domain.projection.map(|projection| projection.to_string()),
-                cuts: settings.domain.region().map(|region| region.cuts().iter().map(SavedCut::of).collect()),
+                cuts: settings.domain.cuts().iter().map(SavedCut::of).collect(),
             },
             boundary: match settings.boundary {
                 BoundaryTreatment::Report => SavedBoundary::Report,
@@ -284,13 +271,6 @@ impl Saved {
             ))
             .into());
         }
-        if head.version < OLDEST_VERSION {
-            let problem = format!(
-                "the project has version {} of its format, and this program reads versions {OLDEST_VERSION} to {VERSION}.",
-                head.version
-            );
-            return Err(Flaw::Syntax(problem).into());
-        }
         if head.version > VERSION {
             let by = if head.written_by.is_empty() {
                 "a newer program".into()
@@ -326,10 +306,8 @@ impl Saved {
             SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
             SavedShape::Polygons => {
                 let on_earth = OutlineOnEarth { file: None, projection, frame: None };
-                let load =
-                    |cuts: Vec<SavedCut>| cuts.iter().map(SavedCut::load).collect::<Result<Vec<_>, _>>();
-                let cuts = self.domain.cuts.map(load);
-                parts.domain(self.domain.polygons.as_deref(), bounds, &on_earth, cuts.transpose()?)?
+                let cuts = self.domain.cuts.iter().map(SavedCut::load).collect::<Result<_, _>>()?;
+                parts.domain(self.domain.polygons.as_deref(), bounds, &on_earth, cuts)?
             }
         };
         check_raster_sizes(&self.layers)?;
