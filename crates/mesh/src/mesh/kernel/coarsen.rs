@@ -208,7 +208,7 @@ impl Mesh {
     #[inline]
     fn parent(&self, Siblings { kept, new }: Siblings, across: Neighbour) -> Triangle {
         let (kept, new) = (self.triangle(kept), self.triangle(new));
-        let kind = kept.kind().coarser();
+        let kind = kept.level_and_side().coarser();
         let [a, ..] = kept.vertices;
         let vertices = if kind.level().is_multiple_of(2) {
             [a, new.vertices[0], new.vertices[1]]
@@ -244,8 +244,8 @@ impl Mesh {
                 let noted = &mut self.triangle_at[vertex.index()];
                 *noted = if *noted == freed { place } else { *noted };
             }
-            let children = [place, freed].map(|id| self.triangle(id).kind());
-            self.counts.merged(children, parent.kind());
+            let children = [place, freed].map(|id| self.triangle(id).level_and_side());
+            self.counts.merged(children, parent.level_and_side());
             self.triangles[place.index()] = *parent;
             log.triangle(place);
         }

@@ -233,12 +233,12 @@ fn advise_large_pages<T>(array: &mut Vec<T>) {
 fn advise_large_pages<T>(_array: &mut Vec<T>) {}
 
 /// A part of the room behind an array, to be filled from its beginning.
-pub(in crate::mesh) struct Piece<'a, T> {
+pub(in crate::mesh) struct SpareRoom<'a, T> {
     slots: &'a mut [MaybeUninit<T>],
     filled: usize,
 }
 
-impl<T: Copy> Piece<'_, T> {
+impl<T: Copy> SpareRoom<'_, T> {
     /// Fills the next places.
     ///
     /// # Panics
@@ -261,7 +261,7 @@ impl<T: Copy> Piece<'_, T> {
 pub(in crate::mesh) fn append_pieces<T: Copy>(
     array: &mut Vec<T>,
     lengths: impl Iterator<Item = usize> + Clone,
-    fill: impl FnOnce(&mut [T], &mut [Piece<T>]),
+    fill: impl FnOnce(&mut [T], &mut [SpareRoom<T>]),
 ) {
     let total = lengths.clone().sum();
     array.reserve(total);
@@ -270,7 +270,7 @@ pub(in crate::mesh) fn append_pieces<T: Copy>(
     let mut pieces = Vec::new();
     for length in lengths {
         let (slots, rest) = room.split_at_mut(length);
-        pieces.push(Piece { slots, filled: 0 });
+        pieces.push(SpareRoom { slots, filled: 0 });
         room = rest;
     }
     assert!(room.is_empty(), "the lengths are the same each time");

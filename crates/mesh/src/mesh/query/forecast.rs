@@ -15,7 +15,9 @@
 //!          o
 //! ```
 
-use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
+use super::forecast_questions::{
+    AskedTriangle, ForecastParentQuestions, LooseVertex, MeshQuestions, TreeQuestions,
+};
 use crate::geometry::{LatticePoint, LatticeRect, NumberMap, NumberSet};
 use crate::mesh::kernel::{
     Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
@@ -65,7 +67,7 @@ pub struct Forecast {
     /// none.
     centres: Bitset,
     /// Triangles that may exceed their target: entries of the mesh, or parts of such.
-    open: Vec<Asked>,
+    open: Vec<AskedTriangle>,
     /// Triangles whose newest vertex can perhaps be removed, to be examined when all triangles are satisfied.
     loose: ByLevel,
     /// The nodes that come.
@@ -77,7 +79,7 @@ pub struct Forecast {
     removed: usize,
     change: i64,
     /// Memory that is used again, empty between calls.
-    batch: Vec<Asked>,
+    batch: Vec<AskedTriangle>,
 }
 
 /// A triangle that is not bisected, as far as counted. It stands for all around its newest vertex.
@@ -253,7 +255,7 @@ impl Forecast {
             }
         }
         self.search = search;
-        let asked = ask_all(&OfMesh { level_cap: self.level_cap }, &mut found, rule);
+        let asked = ask_all(&MeshQuestions { level_cap: self.level_cap }, &mut found, rule);
         if asked.is_ok() {
             self.open.extend(found.iter().filter(|asked| asked.exceeds()));
         }
@@ -264,10 +266,10 @@ impl Forecast {
 
     /// Notes what a change can have done to a triangle that touches its area.
     #[inline]
-    fn look_at(&mut self, mesh: &Mesh, id: TriangleId, area: &ChangedArea, found: &mut Vec<Asked>) {
+    fn look_at(&mut self, mesh: &Mesh, id: TriangleId, area: &ChangedArea, found: &mut Vec<AskedTriangle>) {
         let [asks, loosens] = area.concerns(mesh, mesh.corners(id), mesh.triangle(id).level());
         if asks && self.asked.insert(id.index()) {
-            found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+            found.push(AskedTriangle { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
         }
         // Where a triangle around it was bisected, the newest vertex is looked at once that one is restored.
         if loosens
@@ -290,9 +292,9 @@ impl Forecast {
     ) -> Result<usize, RefineError<R::Error>> {
         let mut batch = std::mem::take(&mut self.batch);
         batch.extend(self.open.drain(self.open.len().saturating_sub(most)..));
-        ask_all(&OfTree { level_cap: self.level_cap }, &mut batch, rule).map_err(RefineError::Rule)?;
+        ask_all(&TreeQuestions { level_cap: self.level_cap }, &mut batch, rule).map_err(RefineError::Rule)?;
         for asked in batch.iter().filter(|asked| asked.exceeds()) {
-            let &Asked { triangle, known } = asked;
+            let &AskedTriangle { triangle, known } = asked;
             if triangle.level() >= self.level_cap {
                 continue;
             }
@@ -300,7 +302,7 @@ impl Forecast {
                 return Err(RefineError::too_fine(mesh.lattice(), triangle.apex()));
             }
             self.bisect(mesh, triangle, &gain);
-            let children = triangle.children().map(|triangle| Asked { triangle, known });
+            let children = triangle.children().map(|triangle| AskedTriangle { triangle, known });
             self.open
                 .extend(children.iter().filter(|child| child.known.exceeds(child.level()) != Some(false)));
         }
@@ -341,9 +343,9 @@ impl Forecast {
     ) -> Result<usize, R::Error> {
         let Some(finest) = self.loose.finest_mut() else { return Ok(0) };
         let batch = finest.split_off(finest.len().saturating_sub(most));
-        let mut stars: Vec<Loose> = batch.iter().filter_map(|whole| self.star(mesh, whole)).collect();
-        ask_all(&OfParents { level_cap: self.level_cap }, &mut stars, rule)?;
-        for parent in stars.iter().filter(|loose| !loose.is_needed).flat_map(Loose::parents) {
+        let mut stars: Vec<LooseVertex> = batch.iter().filter_map(|whole| self.star(mesh, whole)).collect();
+        ask_all(&ForecastParentQuestions { level_cap: self.level_cap }, &mut stars, rule)?;
+        for parent in stars.iter().filter(|loose| !loose.is_needed).flat_map(LooseVertex::parents) {
             self.removed += 1;
             self.change -= gain(parent);
             self.restore(*parent);
@@ -362,7 +364,7 @@ impl Forecast {
     }
 
     /// Returns the parents around the newest vertex of a triangle, if no triangle around it is bisected.
-    fn star(&mut self, mesh: &Mesh, whole: &Whole) -> Option<Loose> {
+    fn star(&mut self, mesh: &Mesh, whole: &Whole) -> Option<LooseVertex> {
         let parent = whole.triangle.parent(mesh.lattice())?;
         let parents = [Some(parent), parent.across(mesh)];
         let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
@@ -373,7 +375,7 @@ impl Forecast {
             all if all == count => true,
             some => some + children.filter(|child| self.is_entry(mesh, child)).count() == count,
         };
-        is_whole.then_some(Loose { parents, is_needed: false })
+        is_whole.then_some(LooseVertex { parents, is_needed: false })
     }
 
     /// Returns whether a triangle is an entry of the mesh that no node cuts.

@@ -169,8 +169,8 @@ impl Survey {
     }
 
     /// Takes what the task has found whose first subtree is this one of the round.
-    fn take(&mut self, found: Found, first: usize) {
-        let Found { slots, open, subtrees, triangles, capped, .. } = found;
+    fn take(&mut self, found: SurveyPart, first: usize) {
+        let SurveyPart { slots, open, subtrees, triangles, capped, .. } = found;
         self.triangles += triangles;
         self.capped += capped;
         let behind = self.slots.len() - subtrees;
@@ -231,12 +231,12 @@ struct Task<A> {
     deepest: u32,
     /// How many triangles may still be visited.
     visits: usize,
-    found: Found,
+    found: SurveyPart,
 }
 
 /// The result of a task. Slots are numbered within the task: its subtrees have the first ones.
 #[derive(Default)]
-struct Found {
+struct SurveyPart {
     subtrees: usize,
     slots: Slots,
     open: Vec<Subtree>,
@@ -249,10 +249,10 @@ struct Found {
 impl<A: RuleAnswers> Task<A> {
     fn new(mesh: &Mesh, limits: &Limits, answers: A, visits: usize) -> Self {
         let (cap, deepest) = (limits.level_cap(), mesh.lattice().deepest_level());
-        Self { answers, cap, deepest, visits, found: Found::default() }
+        Self { answers, cap, deepest, visits, found: SurveyPart::default() }
     }
 
-    fn survey(mut self, subtrees: &[Subtree]) -> Result<Found, A::Error> {
+    fn survey(mut self, subtrees: &[Subtree]) -> Result<SurveyPart, A::Error> {
         self.found.subtrees = subtrees.len();
         self.found.slots = vec![Slot::OPEN; subtrees.len()];
         for (slot, &subtree) in subtrees.iter().enumerate() {

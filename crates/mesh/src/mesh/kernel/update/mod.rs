@@ -96,7 +96,7 @@ use area::Area;
 pub use area::{ChangedArea, Falloff, TargetChange};
 use coarsen::Freed;
 use known::KnownLevels;
-use questions::{Found, Loose, Open};
+use questions::{FoundEntry, LooseStar, OpenTriangle};
 use search::Search;
 
 /// Triangles of a batch, unless a slice is smaller. Few enough that they stay in the cache.
@@ -151,7 +151,7 @@ pub struct Updater {
     /// Triangles that may exceed their target.
     exceeding: Bitset,
     /// The same as a list, unless it is empty: the last ones are asked about first.
-    open: Vec<Open>,
+    open: Vec<OpenTriangle>,
     /// The number of entries at the beginning of this list whose answers are those of a former rule.
     outdated: usize,
     /// What is known of the triangles in this list.
@@ -167,15 +167,15 @@ pub struct Updater {
     starts: WalkStarts,
     /// Memory that is used again, empty between calls.
     chain: Vec<TriangleId>,
-    found: Vec<Found>,
-    batch: Vec<Open>,
-    stars: Vec<Loose>,
+    found: Vec<FoundEntry>,
+    batch: Vec<OpenTriangle>,
+    stars: Vec<LooseStar>,
     freed: Freed,
 }
 
-/// The kind of work that comes next.
+/// The pass that comes next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Work {
+enum NextPass {
     Search,
     Refine,
     Coarsen,
@@ -254,7 +254,7 @@ impl Updater {
 
     /// Returns whether nothing is left to do.
     pub fn is_done(&self) -> bool {
-        self.next_work() == Work::Nothing
+        self.next_pass() == NextPass::Nothing
     }
 
     /// Returns whether rectangles are left to be searched.
@@ -268,24 +268,24 @@ impl Updater {
         self.areas.iter().rposition(|area| area.changed.rect.meets(&searched))
     }
 
-    fn next_work(&self) -> Work {
+    fn next_pass(&self) -> NextPass {
         let is_searching = match &self.search {
             Some(Search::Flood(..)) => true,
             Some(Search::Scan(scan)) => !scan.has_part(),
             None => false,
         };
         if is_searching || (self.is_short && self.has_areas()) || self.area_beside().is_some() {
-            Work::Search
+            NextPass::Search
         } else if self.is_short && self.loose.count() > 0 {
-            Work::Coarsen
+            NextPass::Coarsen
         } else if self.exceeding.count() > 0 {
-            Work::Refine
+            NextPass::Refine
         } else if self.loose.count() > 0 {
-            Work::Coarsen
+            NextPass::Coarsen
         } else if self.has_areas() {
-            Work::Search
+            NextPass::Search
         } else {
-            Work::Nothing
+            NextPass::Nothing
         }
     }
 
@@ -334,14 +334,14 @@ impl Updater {
         // Ends: see the head of this file.
         while left > 0 {
             let most = left.min(BATCH);
-            let looked = match self.next_work() {
-                Work::Search => self.search_on(mesh, rule, most).map_err(RefineError::Rule)?,
-                Work::Refine => {
+            let looked = match self.next_pass() {
+                NextPass::Search => self.search_on(mesh, rule, most).map_err(RefineError::Rule)?,
+                NextPass::Refine => {
                     self.is_short = false;
                     self.refine_on(mesh, rule, &mut room, most)?
                 }
-                Work::Coarsen => self.coarsen_on(mesh, rule, most).map_err(RefineError::Rule)?,
-                Work::Nothing => break,
+                NextPass::Coarsen => self.coarsen_on(mesh, rule, most).map_err(RefineError::Rule)?,
+                NextPass::Nothing => break,
             };
             left -= looked.clamp(1, left);
         }
