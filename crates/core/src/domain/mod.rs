@@ -51,7 +51,7 @@ pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::{FitComparison, FitQuality};
 pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
-pub(crate) use outline::Outline;
+pub(crate) use outline::RegionOutline;
 pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners};
 pub use sea::{Land, Sea, SeaError, WaterSide};

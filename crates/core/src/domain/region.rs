@@ -49,7 +49,7 @@ impl Region {
     /// Returns the polygons of the region that others cover, as [`Self::new`] does.
     pub(super) fn covered(polygons: &[Polygon], frame: Rect) -> Vec<Polygon> {
         let grid = Grid::over(&frame);
-        let simple: Vec<Shape> = polygons
+        let simple: Vec<IntShape> = polygons
             .iter()
             .filter_map(|rings| {
                 grid.contours(rings).split_first().map(|(outer, holes)| {
@@ -58,7 +58,7 @@ impl Region {
             })
             .flatten()
             .collect();
-        let contours: Vec<Contour> = simple.into_iter().flatten().collect();
+        let contours: Vec<IntContour> = simple.into_iter().flatten().collect();
         Self::cut_to_frame(&grid, &contours).polygons
     }
 
@@ -141,7 +141,7 @@ impl Region {
         sides
     }
 
-    fn cut_to_frame(grid: &Grid, contours: &[Contour]) -> Self {
+    fn cut_to_frame(grid: &Grid, contours: &[IntContour]) -> Self {
         grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], OverlayOperation::BOTH))
     }
 
@@ -241,7 +241,7 @@ impl Region {
     fn combined(&self, rings: &[Ring], rule: OverlayOperation) -> Self {
         let grid = Grid::over(&self.frame);
         let frame = [grid.contour(&corners(&self.frame))];
-        let within: Vec<Contour> =
+        let within: Vec<IntContour> =
             overlay(&grid.contours(rings), &frame, OverlayOperation::BOTH).into_iter().flatten().collect();
         grid.region(overlay(&grid.contours_of(self), &within, rule)).cut_by(self.cuts.clone())
     }
@@ -316,8 +316,8 @@ fn perimeter(ring: &[DVec2]) -> f64 {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum()
 }
 
-type Contour = Vec<IntPoint<i64>>;
-type Shape = Vec<Contour>;
+type IntContour = Vec<IntPoint<i64>>;
+type IntShape = Vec<IntContour>;
 
 /// Which points belong to the result of an overlay.
 #[derive(Clone, Copy)]
@@ -336,10 +336,10 @@ impl OverlayOperation {
 }
 
 fn overlay(
-    first: &[Contour],
-    second: &[Contour],
+    first: &[IntContour],
+    second: &[IntContour],
     OverlayOperation(rule, fill): OverlayOperation,
-) -> Vec<Shape> {
+) -> Vec<IntShape> {
     let corners = first.iter().chain(second).map(Vec::len).sum();
     // As the OGC standard requires: a hole that touches another ring at one point stays a hole.
     let mut overlay = Overlay::new_custom(corners, IntOverlayOptions::ogc(), Solver::default());
@@ -370,7 +370,7 @@ impl Grid {
         Self { frame: *frame, steps, step: frame.size() / steps }
     }
 
-    fn contour(&self, ring: &[DVec2]) -> Contour {
+    fn contour(&self, ring: &[DVec2]) -> IntContour {
         let nearest = |p: &DVec2| {
             // Points far outside the frame are clipped later anyway.
             let steps = ((*p - self.frame.min) / self.step).clamp(DVec2::splat(-1e12), DVec2::splat(1e12));
@@ -379,11 +379,11 @@ impl Grid {
         ring.iter().map(nearest).collect()
     }
 
-    fn contours(&self, rings: &[Ring]) -> Vec<Contour> {
+    fn contours(&self, rings: &[Ring]) -> Vec<IntContour> {
         rings.iter().map(|ring| self.contour(ring)).collect()
     }
 
-    fn contours_of(&self, region: &Region) -> Vec<Contour> {
+    fn contours_of(&self, region: &Region) -> Vec<IntContour> {
         region.rings().map(|ring| self.contour(ring)).collect()
     }
 
@@ -396,17 +396,17 @@ impl Grid {
     }
 
     /// Returns a square around the frame that does not touch it.
-    fn contour_around(&self) -> Contour {
+    fn contour_around(&self) -> IntContour {
         let (low, high) = (-8, self.steps as i64 + 8);
         [[low, low], [high, low], [high, high], [low, high]].map(|[x, y]| IntPoint::new(x, y)).to_vec()
     }
 
-    fn polygons(&self, shapes: &[Shape]) -> Vec<Polygon> {
-        let ring = |contour: &Contour| contour.iter().map(|p| self.world(p)).collect();
+    fn polygons(&self, shapes: &[IntShape]) -> Vec<Polygon> {
+        let ring = |contour: &IntContour| contour.iter().map(|p| self.world(p)).collect();
         shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect()
     }
 
-    fn region(&self, shapes: Vec<Shape>) -> Region {
+    fn region(&self, shapes: Vec<IntShape>) -> Region {
         Region::of_simple(self.frame, self.polygons(&shapes))
     }
 }

@@ -2,12 +2,12 @@
 
 /// Values in squares, row by row from the lowest.
 #[derive(Debug)]
-pub(super) struct Squares<T> {
+pub(super) struct SquareValues<T> {
     columns: u32,
     values: Vec<T>,
 }
 
-impl<T: Copy> Squares<T> {
+impl<T: Copy> SquareValues<T> {
     /// Returns the values of squares in so many columns.
     pub fn new(columns: u32, values: Vec<T>) -> Self {
         Self { columns, values }

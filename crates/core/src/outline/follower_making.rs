@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::OutlineFollower;
-use super::changes::{FittedBand, Outline};
+use super::changes::{FittedBand, OutlineOnLattice};
 use super::writer::{Writer, Written};
 use crate::domain::DomainOnLattice;
 use crate::mesh::Mesh;
@@ -18,7 +18,12 @@ pub(super) struct FollowerMaking {
 
 impl FollowerMaking {
     /// Begins. Mesh, outline and band are always the same.
-    pub fn new(mesh: &Mesh, domain: &DomainOnLattice, outline: &Outline, fitted: &FittedBand) -> Self {
+    pub fn new(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        outline: &OutlineOnLattice,
+        fitted: &FittedBand,
+    ) -> Self {
         let follower = OutlineFollower::empty(mesh, domain, outline, fitted);
         Self { follower, written: Written::of(fitted), done: 0 }
     }
@@ -27,7 +32,7 @@ impl FollowerMaking {
     pub fn advance(
         self,
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         fitted: &FittedBand,
         most: usize,
     ) -> ControlFlow<OutlineFollower, Self> {

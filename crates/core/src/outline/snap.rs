@@ -9,14 +9,14 @@ use crate::geometry::{Lattice, LatticePoint};
 
 /// The side of the outline on which a node lies, after the nodes nearest to it have moved onto it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum OutlineSide {
     Inside,
     Outside,
     /// On the outline, or moving onto it.
     On,
 }
 
-impl Side {
+impl OutlineSide {
     pub(super) fn of(inside: bool) -> Self {
         if inside { Self::Inside } else { Self::Outside }
     }
@@ -134,10 +134,14 @@ impl Link {
 /// Returns the side and the goal of each node of the band. A node moves if the outline crosses an edge of it
 /// nearer to it than to the other end: to the nearest such crossing, all nodes at once. It moves only if the
 /// outline passes between the nodes around it once.
-pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (Vec<Side>, Vec<LatticePoint>) {
+pub(super) fn snapped(
+    band: &Band,
+    crossings: &Crossings,
+    angles: &Angles,
+) -> (Vec<OutlineSide>, Vec<LatticePoint>) {
     let nodes = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
     let placed = nodes.map_init(Vec::new, |star, v| {
-        let (side, home) = (Side::of(band.inside[v as usize]), band.points[v as usize]);
+        let (side, home) = (OutlineSide::of(band.inside[v as usize]), band.points[v as usize]);
         if !band.active[v as usize] {
             return (side, home);
         }
@@ -147,7 +151,7 @@ pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (V
         } else {
             None
         };
-        goal.map_or((side, home), |goal| (Side::On, goal))
+        goal.map_or((side, home), |goal| (OutlineSide::On, goal))
     });
     placed.unzip()
 }

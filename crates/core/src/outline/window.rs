@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::band::{Band, GRAIN, RINGS};
-use super::changes::{FittedBand, Outline};
+use super::changes::{FittedBand, OutlineOnLattice};
 use super::numbers::{Numbers, Pages};
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, NodeId, TriangleId};
@@ -145,7 +145,7 @@ impl Window {
     /// all that may be in the band. `touches` says of a triangle whether the outline touches it.
     pub(super) fn new(
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         core: Vec<NodeId>,
         (sure, slack): (Vec<NodeId>, u32),
         pass: impl Fn(TriangleId) -> bool,

@@ -1,6 +1,6 @@
 //! Writes what is derived into what is kept of it.
 
-use super::changes::{FittedBand, Outline, PiecesByTriangle};
+use super::changes::{FittedBand, OutlineOnLattice, PiecesByTriangle};
 use super::follower::{KeptNode, KeptPiece, KeptTriangle, OutlineFollower, Seat, node_place, triangle_place};
 use super::triangulation::NONE;
 use crate::mesh::Mesh;
@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 pub(super) struct Writer<'a> {
     mesh: &'a Mesh,
     fitted: &'a FittedBand,
-    outline: &'a Outline<'a>,
+    outline: &'a OutlineOnLattice<'a>,
     written: Written,
 }
 
@@ -34,7 +34,7 @@ impl Written {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a Outline<'a>) -> Self {
+    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a OutlineOnLattice<'a>) -> Self {
         Self::going_on(mesh, fitted, outline, Written::of(fitted))
     }
 
@@ -42,7 +42,7 @@ impl<'a> Writer<'a> {
     pub(super) fn going_on(
         mesh: &'a Mesh,
         fitted: &'a FittedBand,
-        outline: &'a Outline<'a>,
+        outline: &'a OutlineOnLattice<'a>,
         written: Written,
     ) -> Self {
         Self { mesh, fitted, outline, written }

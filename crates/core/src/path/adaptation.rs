@@ -117,11 +117,11 @@ impl Adaptation {
         let mut numbers = vec![NONE; mesh.triangle_count()];
         let (mut triangles, mut across) = (Vec::new(), Vec::new());
         self.visit_base(mesh.triangle_count(), |number, origin| match origin {
-            Origin::Bisected(Bisected { triangle, .. }) => {
+            BaseOrigin::Bisected(Bisected { triangle, .. }) => {
                 triangles.push(*triangle);
                 across.push([NONE; 3]);
             }
-            Origin::Whole(t) => {
+            BaseOrigin::Whole(t) => {
                 let triangle = mesh.triangles[t as usize];
                 let corners = triangle.corners.map(|node| node_numbers[node as usize]);
                 triangles.push(PathTriangle { corners, ..triangle });
@@ -155,8 +155,10 @@ impl Adaptation {
         let mut known = Vec::with_capacity(costs.least.len());
         self.visit_base(costs.least.len(), |_, origin| {
             known.push(match origin {
-                Origin::Bisected(bisected) => bisected.cost,
-                Origin::Whole(t) => TriangleCost::constant(costs.least[t as usize], costs.mean[t as usize]),
+                BaseOrigin::Bisected(bisected) => bisected.cost,
+                BaseOrigin::Whole(t) => {
+                    TriangleCost::constant(costs.least[t as usize], costs.mean[t as usize])
+                }
             });
         });
         self.greatest.iter().for_each(|&(t, greatest)| known[t as usize].greatest = greatest);
@@ -165,20 +167,20 @@ impl Adaptation {
 
     /// Calls a function for each triangle of the base in the order of their numbers, where the mesh has
     /// `count` triangles.
-    fn visit_base<'a>(&'a self, count: usize, mut visit: impl FnMut(u32, Origin<'a>)) {
+    fn visit_base<'a>(&'a self, count: usize, mut visit: impl FnMut(u32, BaseOrigin<'a>)) {
         let mut bisected = self.bisected.iter().peekable();
         let mut whole = without(&self.parts, count);
         for number in 0..(count - self.parts.len() + self.bisected.len()) as u32 {
             match bisected.next_if(|bisected| bisected.number == number) {
-                Some(bisected) => visit(number, Origin::Bisected(bisected)),
-                None => visit(number, Origin::Whole(whole.next().expect("all others are whole"))),
+                Some(bisected) => visit(number, BaseOrigin::Bisected(bisected)),
+                None => visit(number, BaseOrigin::Whole(whole.next().expect("all others are whole"))),
             }
         }
     }
 }
 
 /// Where a triangle of a base is.
-enum Origin<'a> {
+enum BaseOrigin<'a> {
     /// It was bisected.
     Bisected(&'a Bisected),
     /// The mesh has it with this number.

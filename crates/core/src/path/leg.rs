@@ -7,7 +7,7 @@ use super::integral::PathFigures;
 use super::lower::LowerBound;
 use super::march::March;
 use super::obstacle::obstacle;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::planner::{PathRequest, Planner};
 use super::refine::{Effort, Refining, refine};
 use super::shortest::{CornerSearch, Shortest};
@@ -27,9 +27,9 @@ const LEAST_GAIN: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub(super) struct LegSearch {
     leg: usize,
-    ends: [Place; 2],
+    ends: [MeshPlace; 2],
     request: PathRequest,
-    step: Step,
+    step: LegStep,
     /// The best path so far.
     solution: Solution,
     /// Ways along which paths are sought. The first one is that of the march from the start.
@@ -40,15 +40,15 @@ pub(super) struct LegSearch {
 
 /// What is done next.
 #[derive(Clone, Debug)]
-enum Step {
+enum LegStep {
     /// Follows the march from the start.
     Trace,
     /// Makes a way smooth: the first one, or another one.
-    Smooth(Box<Refining>, Option<Candidates>),
+    Smooth(Box<Refining>, Option<WayCandidates>),
     /// Takes the first solution.
     Solve(Vec<DVec2>),
     /// Takes each of these paths if it costs less, the last one first, then takes that step.
-    Better(Vec<Vec<DVec2>>, Box<Step>),
+    Better(Vec<Vec<DVec2>>, Box<LegStep>),
     /// Compares that with the path as it was traced: where the cost jumps, a smooth one can cost more.
     Compare,
     /// Begins to march from the goal.
@@ -73,23 +73,23 @@ enum Step {
 
 /// A smooth path is made of a way: either may cost less than the solution.
 #[derive(Clone, Debug)]
-struct Candidates {
+struct WayCandidates {
     way: Vec<DVec2>,
     /// Whether the smooth one is tried first.
     is_smooth_first: bool,
-    next: Box<Step>,
+    next: Box<LegStep>,
 }
 
-impl Candidates {
-    fn with(self, smooth: Vec<DVec2>) -> Step {
+impl WayCandidates {
+    fn with(self, smooth: Vec<DVec2>) -> LegStep {
         let Self { way, is_smooth_first, next } = self;
-        Step::Better(if is_smooth_first { vec![way, smooth] } else { vec![smooth, way] }, next)
+        LegStep::Better(if is_smooth_first { vec![way, smooth] } else { vec![smooth, way] }, next)
     }
 }
 
 impl LegSearch {
-    pub fn new(leg: usize, ends: [Place; 2], request: PathRequest) -> Self {
-        let (step, solution) = (Step::Trace, Solution::default());
+    pub fn new(leg: usize, ends: [MeshPlace; 2], request: PathRequest) -> Self {
+        let (step, solution) = (LegStep::Trace, Solution::default());
         Self { leg, ends, request, step, solution, ways: Vec::new(), least: f64::INFINITY }
     }
 
@@ -106,87 +106,97 @@ impl LegSearch {
         nodes: usize,
     ) -> Result<Option<Solution>, PathError> {
         let Self { ends, request, .. } = *self;
-        self.step = match std::mem::replace(&mut self.step, Step::Bound) {
-            Step::Trace if ends[0].point == ends[1].point => {
+        self.step = match std::mem::replace(&mut self.step, LegStep::Bound) {
+            LegStep::Trace if ends[0].point == ends[1].point => {
                 let points = ends.map(|end| end.point).to_vec();
                 return Ok(Some(planner.solution(points, density, request.tolerance)));
             }
-            Step::Trace => {
+            LegStep::Trace => {
                 let traced = self.trace(planner, places)?;
                 self.ways.push(traced.clone());
-                Step::Smooth(self.refining(traced), None)
+                LegStep::Smooth(self.refining(traced), None)
             }
-            Step::Bound => match self.begin_bound(planner)? {
-                Some(bound) => Step::Raise(Box::new(bound)),
+            LegStep::Bound => match self.begin_bound(planner)? {
+                Some(bound) => LegStep::Raise(Box::new(bound)),
                 None => return Ok(Some(std::mem::take(&mut self.solution))),
             },
-            Step::Raise(mut bound) => match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
-                None => Step::Raise(bound),
-                Some(lower) => {
-                    self.solution.lower = lower.min(self.solution.upper);
-                    return Ok(Some(std::mem::take(&mut self.solution)));
+            LegStep::Raise(mut bound) => {
+                match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
+                    None => LegStep::Raise(bound),
+                    Some(lower) => {
+                        self.solution.lower = lower.min(self.solution.upper);
+                        return Ok(Some(std::mem::take(&mut self.solution)));
+                    }
                 }
-            },
+            }
             step => self.improve(step, planner, density, nodes),
         };
         Ok(None)
     }
 
     /// Takes one of the steps from the traced way to the best path. Returns the next one.
-    fn improve(&mut self, step: Step, planner: &Planner, density: &dyn CostDensity, nodes: usize) -> Step {
+    fn improve(
+        &mut self,
+        step: LegStep,
+        planner: &Planner,
+        density: &dyn CostDensity,
+        nodes: usize,
+    ) -> LegStep {
         let Self { ends, request, .. } = *self;
         match step {
-            Step::Smooth(mut refining, others) => match (refining.advance(density, &planner.walls), others) {
-                (None, others) => Step::Smooth(refining, others),
-                (Some(smooth), Some(others)) => others.with(smooth),
-                (Some(smooth), None) => Step::Solve(smooth),
-            },
-            Step::Solve(points) => {
+            LegStep::Smooth(mut refining, others) => {
+                match (refining.advance(density, &planner.walls), others) {
+                    (None, others) => LegStep::Smooth(refining, others),
+                    (Some(smooth), Some(others)) => others.with(smooth),
+                    (Some(smooth), None) => LegStep::Solve(smooth),
+                }
+            }
+            LegStep::Solve(points) => {
                 self.solution = planner.solution(points, density, request.tolerance);
-                Step::Compare
+                LegStep::Compare
             }
-            Step::Compare => {
+            LegStep::Compare => {
                 self.take_better(planner, density, self.ways[0].clone());
-                if request.effort == Effort::FULL { Step::Back } else { Step::Bound }
+                if request.effort == Effort::FULL { LegStep::Back } else { LegStep::Bound }
             }
-            Step::Better(mut paths, next) => match paths.pop() {
+            LegStep::Better(mut paths, next) => match paths.pop() {
                 Some(path) => {
                     self.take_better(planner, density, path);
-                    Step::Better(paths, next)
+                    LegStep::Better(paths, next)
                 }
                 None => *next,
             },
-            Step::Back => Step::March(Box::new(planner.begin_back(ends[1]))),
-            Step::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
-                Progress::More => Step::March(march),
-                Progress::Done => Step::Ways(march),
+            LegStep::Back => LegStep::March(Box::new(planner.begin_back(ends[1]))),
+            LegStep::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
+                Progress::More => LegStep::March(march),
+                Progress::Done => LegStep::Ways(march),
             },
-            Step::Ways(march) => {
+            LegStep::Ways(march) => {
                 self.find_ways(planner, &march);
                 (self.least, _) = sketch(planner, density, &self.ways[0]);
-                Step::Sketch(1)
+                LegStep::Sketch(1)
             }
-            Step::Sketch(number) if number < self.ways.len() => self.try_way(planner, density, number),
-            Step::Sketch(_) => Step::Lines,
-            Step::Lines => match planner.along_lines(density, ends, self.solution.cost) {
-                Some(along) => self.smooth(along, true, Step::Shortest),
-                None => Step::Shortest,
+            LegStep::Sketch(number) if number < self.ways.len() => self.try_way(planner, density, number),
+            LegStep::Sketch(_) => LegStep::Lines,
+            LegStep::Lines => match planner.along_lines(density, ends, self.solution.cost) {
+                Some(along) => self.smooth(along, true, LegStep::Shortest),
+                None => LegStep::Shortest,
             },
-            Step::Shortest => match self.begin_shortest(planner, density) {
-                Some(search) => Step::Corners(Box::new(search)),
-                None => Step::Bound,
+            LegStep::Shortest => match self.begin_shortest(planner, density) {
+                Some(search) => LegStep::Corners(Box::new(search)),
+                None => LegStep::Bound,
             },
-            Step::Corners(mut search) => {
+            LegStep::Corners(mut search) => {
                 let progress = self.look_around(&mut search, planner, density, nodes / INTERVALS);
                 if progress == Progress::More {
-                    return Step::Corners(search);
+                    return LegStep::Corners(search);
                 }
                 match search.way(&planner.mesh, &planner.walls) {
-                    Some(way) => self.smooth(way, false, Step::Bound),
-                    None => Step::Bound,
+                    Some(way) => self.smooth(way, false, LegStep::Bound),
+                    None => LegStep::Bound,
                 }
             }
-            step @ (Step::Trace | Step::Bound | Step::Raise(_)) => step,
+            step @ (LegStep::Trace | LegStep::Bound | LegStep::Raise(_)) => step,
         }
     }
 
@@ -203,9 +213,9 @@ impl LegSearch {
     }
 
     /// Makes a way smooth, tries both, the smooth one first or last, and goes on with a step.
-    fn smooth(&self, way: Vec<DVec2>, is_smooth_first: bool, next: Step) -> Step {
+    fn smooth(&self, way: Vec<DVec2>, is_smooth_first: bool, next: LegStep) -> LegStep {
         let next = Box::new(next);
-        Step::Smooth(self.refining(way.clone()), Some(Candidates { way, is_smooth_first, next }))
+        LegStep::Smooth(self.refining(way.clone()), Some(WayCandidates { way, is_smooth_first, next }))
     }
 
     /// Begins with the lower bound; `None` where none is wanted, or nothing is known.
@@ -243,9 +253,9 @@ impl LegSearch {
     }
 
     /// Sketches the way with this number. Returns the next step.
-    fn try_way(&mut self, planner: &Planner, density: &dyn CostDensity, number: usize) -> Step {
+    fn try_way(&mut self, planner: &Planner, density: &dyn CostDensity, number: usize) -> LegStep {
         let (promised, sketched) = sketch(planner, density, &self.ways[number]);
-        let next = Step::Sketch(number + 1);
+        let next = LegStep::Sketch(number + 1);
         if promised < self.least * (1.0 - LEAST_GAIN) {
             self.least = promised;
             return self.smooth(sketched, true, next);

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Passage;
 use super::march::March;
 use super::path_mesh::PathMesh;
-use super::place::Place;
+use super::place::MeshPlace;
 use crate::mesh::Progress;
 
 /// A lower bound of the least cost of all paths between two places.
@@ -61,8 +61,8 @@ const TOGETHER: usize = 4096;
 struct Problem<'a> {
     mesh: &'a PathMesh,
     costs: &'a [f64],
-    start: Place,
-    goal: Place,
+    start: MeshPlace,
+    goal: MeshPlace,
 }
 
 impl LowerBound {
@@ -71,7 +71,7 @@ impl LowerBound {
     pub fn new(
         mesh: &PathMesh,
         costs: &[f64],
-        [start, goal]: [Place; 2],
+        [start, goal]: [MeshPlace; 2],
         [us, ug]: [&March; 2],
         upper: f64,
     ) -> Self {
@@ -108,7 +108,7 @@ impl LowerBound {
         &mut self,
         mesh: &PathMesh,
         costs: &[f64],
-        [start, goal]: [Place; 2],
+        [start, goal]: [MeshPlace; 2],
         most: usize,
     ) -> Option<f64> {
         let problem = Problem { mesh, costs, start, goal };
@@ -212,7 +212,7 @@ impl Problem<'_> {
 
     /// Returns a function that is at most the distance from a place everywhere: λ · (max(u, r) − its value
     /// there), with the r that gives most at the other place, and λ by the gradients in all triangles.
-    fn clamped(&self, u: &[f64], from: Place, to: Place) -> Vec<f64> {
+    fn clamped(&self, u: &[f64], from: MeshPlace, to: MeshPlace) -> Vec<f64> {
         let total = to.interpolate(self.mesh, u);
         let limits: Vec<f64> = std::iter::once(0.0)
             .chain((0..CLAMPS).map(|n| total * f64::from(1 << n) / f64::from(1 << CLAMPS)))

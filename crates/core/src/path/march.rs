@@ -30,7 +30,7 @@ use crate::mesh::Progress;
 /// The arrays are reused from run to run.
 #[derive(Clone, Debug, Default)]
 pub struct March {
-    pub(super) nodes: Vec<Front>,
+    pub(super) nodes: Vec<NodeState>,
     pub(super) queue: Queue,
     /// How many nodes the last run accepted.
     pub(super) accepted_count: usize,
@@ -38,7 +38,7 @@ pub struct March {
 
 /// The state of a node in a march.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Front {
+pub(super) struct NodeState {
     pub at: DVec2,
     /// The least cost from a seed; infinite if no seed reaches the node.
     pub value: f64,
@@ -69,7 +69,7 @@ impl March {
     /// Begins to march from seeds.
     pub(super) fn begin(&mut self, mesh: &PathMesh, seeds: &[Seed]) {
         self.nodes.clear();
-        let fresh = |&at: &DVec2| Front { at, value: f64::INFINITY, from: NONE, is_accepted: false };
+        let fresh = |&at: &DVec2| NodeState { at, value: f64::INFINITY, from: NONE, is_accepted: false };
         self.nodes.extend(mesh.nodes.iter().map(fresh));
         self.queue.clear();
         self.accepted_count = 0;
@@ -275,7 +275,7 @@ impl Kite {
 /// where the cost of the edge is lost in rounding: so each value comes from smaller ones, or from equal ones
 /// of nodes with smaller numbers, and a descent by them ends.
 #[inline]
-pub(super) fn from_corner(from: &Front, to: &Front, cost: f64) -> f64 {
+pub(super) fn from_corner(from: &NodeState, to: &NodeState, cost: f64) -> f64 {
     (from.value + cost * from.at.distance(to.at)).max(from.value.next_up())
 }
 
@@ -283,10 +283,10 @@ pub(super) fn from_corner(from: &Front, to: &Front, cost: f64) -> f64 {
 /// end, or would be below the value of an end.
 #[inline]
 pub(super) fn through_edge(
-    a: &Front,
-    b: &Front,
+    a: &NodeState,
+    b: &NodeState,
     [number_a, number_b]: [u32; 2],
-    to: &Front,
+    to: &NodeState,
     number: u32,
     cost: f64,
 ) -> f64 {

@@ -9,14 +9,14 @@ use crate::geometry::{Side, side_of_points};
 
 /// A point in one of the open triangles that contain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct MeshPlace {
     /// The point in world units.
     pub point: DVec2,
     /// The triangle.
     pub triangle: u32,
 }
 
-impl Place {
+impl MeshPlace {
     /// Finds a waypoint. A point that lies outside only by rounding is moved into its triangle, by as little
     /// as numbers allow.
     ///

@@ -1,9 +1,9 @@
 //! A march after the costs of some triangles changed.
 
 use super::Passage;
-use super::march::{Front, Kite, March, Seed, from_corner, through_edge};
+use super::march::{Kite, March, NodeState, Seed, from_corner, through_edge};
 use super::path_mesh::{NONE, PathMesh};
-use super::shared::Shared;
+use super::shared::SharedParts;
 
 impl March {
     /// Brings the values up to date after the costs of some triangles changed, and returns how many nodes
@@ -35,12 +35,12 @@ impl March {
         costs: &[f64],
         least: Passage,
         seeds: &[Seed],
-        (shared, changed): (&Shared, &[u32]),
+        (shared, changed): (&SharedParts, &[u32]),
     ) -> usize {
         let mut lost = Vec::new();
         let before = std::mem::take(&mut self.nodes);
         for ((number, &at), &known) in (0..).zip(&mesh.nodes).zip(&shared.nodes) {
-            let unknown = Front { at, value: f64::INFINITY, from: NONE, is_accepted: false };
+            let unknown = NodeState { at, value: f64::INFINITY, from: NONE, is_accepted: false };
             let mut front = before.get(known as usize).copied().unwrap_or(unknown);
             if front.from != NONE {
                 if !is_kept([old, mesh], front.from, shared) {
@@ -62,7 +62,7 @@ impl March {
         seeds: &[Seed],
         (changed, lost): (&[u32], &[u32]),
     ) -> usize {
-        let mut edit = Edit { march: self, mesh, costs, least, seeds, lost: Vec::new() };
+        let mut edit = MarchEdit { march: self, mesh, costs, least, seeds, lost: Vec::new() };
         edit.march.queue.clear();
         edit.march.accepted_count = 0;
         lost.iter().for_each(|&node| edit.lose(node));
@@ -94,7 +94,7 @@ impl March {
 
 /// Returns whether values from a triangle of an old mesh may still come from it: both meshes have it, and
 /// where it has an obtuse angle, the one across.
-fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &Shared) -> bool {
+fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &SharedParts) -> bool {
     let Some(kept) = new.triangles.get(shared.new_triangles[t as usize] as usize) else { return false };
     let obtuse = usize::from(kept.obtuse);
     let across = |mesh: &PathMesh, t: u32| mesh.across[t as usize][(obtuse + 1) % 3];
@@ -105,7 +105,7 @@ fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &Shared) -> bool {
     of_old == NONE || shared.new_triangles[of_old as usize] == of_new
 }
 
-struct Edit<'a> {
+struct MarchEdit<'a> {
     march: &'a mut March,
     mesh: &'a PathMesh,
     costs: &'a [f64],
@@ -115,8 +115,8 @@ struct Edit<'a> {
     lost: Vec<u32>,
 }
 
-impl Edit<'_> {
-    fn front(&self, node: u32) -> Front {
+impl MarchEdit<'_> {
+    fn front(&self, node: u32) -> NodeState {
         self.march.nodes[node as usize]
     }
 

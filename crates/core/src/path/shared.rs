@@ -10,7 +10,7 @@ const TOGETHER: usize = 4096;
 /// The nodes and triangles of a new mesh that an old one has, too: those whose coordinates are the same.
 ///
 /// Shared nodes are in the same order in both.
-pub(super) struct Shared {
+pub(super) struct SharedParts {
     /// For each node of the new mesh, the number of the same one in the old mesh; [`NONE`] without one.
     pub nodes: Vec<u32>,
     /// For each triangle of the new mesh, the number of that with the same corners, in the same order, in the
@@ -21,7 +21,7 @@ pub(super) struct Shared {
     pub new_triangles: Vec<u32>,
 }
 
-impl Shared {
+impl SharedParts {
     /// Compares two meshes. Those around whose nodes another rectangle lies share nothing.
     pub fn of(old: &PathMesh, new: &PathMesh) -> Self {
         let nodes = shared_nodes(old, new);

@@ -16,10 +16,10 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::Passage;
+use super::disjoint_sets::DisjointSets;
 use super::march::March;
-use super::parts::Parts;
 use super::path_mesh::PathMesh;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::trace::trace;
 use super::walls::Walls;
 use crate::geometry::nearest_on_segment;
@@ -40,7 +40,7 @@ pub(super) struct Ways<'a> {
     pub mesh: &'a PathMesh,
     pub costs: &'a [f64],
     pub walls: &'a Walls,
-    pub ends: [Place; 2],
+    pub ends: [MeshPlace; 2],
     pub marches: [&'a March; 2],
 }
 
@@ -88,7 +88,7 @@ impl Line {
         }
         // The level rises from crossing to crossing. A valley ends where it meets a deeper one, and the root
         // of each part is its lowest crossing.
-        let mut parts = Parts::new(order.len());
+        let mut parts = DisjointSets::new(order.len());
         let mut is_shallow = vec![false; order.len()];
         for (rank, lower) in lower_beside.iter().enumerate() {
             for &other in lower {
@@ -199,7 +199,7 @@ impl Ways<'_> {
     /// The way that both marches lead by a crossing.
     fn way_by(&self, crossing: Crossing) -> Option<Vec<DVec2>> {
         let point = self.mesh.moved_into(crossing.triangle, crossing.at);
-        let via = Place { point, triangle: crossing.triangle };
+        let via = MeshPlace { point, triangle: crossing.triangle };
         let [start, goal] = self.ends;
         let mut way = trace(self.mesh, self.costs, self.marches[0], [start, via])?;
         let mut rest = trace(self.mesh, self.costs, self.marches[1], [goal, via])?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::nodes::{SurfaceNodes, SurfaceTriangle};
-use super::order::{Measured, triangle_key};
+use super::order::{MeasuredTriangle, triangle_key};
 use super::queue::{ErrorQueue, QueueGoal};
 use super::samples::{LayerSamples, SurfaceSamples};
 use crate::geometry::{Lattice, LatticePoint, NumberSet};
@@ -21,7 +21,7 @@ const LEAST_SHARE: f64 = 1.0 / 32.0;
 pub struct SurfaceRule {
     samples: Arc<SurfaceSamples>,
     /// What each layer of the samples asks for.
-    asked: Vec<Asked>,
+    asked: Vec<LayerGoal>,
     /// The triangles that are bisected for sums of squares, as [`triangle_key`].
     bisected: Arc<NumberSet<u64>>,
     /// The errors by the norms of sums of squares that the mesh was made for.
@@ -32,7 +32,7 @@ pub struct SurfaceRule {
 
 /// What a layer asks for.
 #[derive(Clone, Copy, Debug)]
-struct Asked {
+struct LayerGoal {
     goal: SurfaceGoal,
     norm: SurfaceNorm,
     /// The largest difference that the layer allows; infinite where that is not known yet, and for other
@@ -57,7 +57,7 @@ pub struct SurfaceDemand {
     pub most: f64,
 }
 
-impl Asked {
+impl LayerGoal {
     const NOTHING: Self =
         Self { goal: SurfaceGoal::Within(f64::INFINITY), norm: SurfaceNorm::Largest, error: f64::INFINITY };
 
@@ -82,15 +82,15 @@ impl SurfaceRule {
     pub fn new(samples: Arc<SurfaceSamples>, stack: &[Layer]) -> Self {
         let surface = |id: LayerId| stack.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
         let asked = samples.layers.iter().map(|layer| match surface(layer.id) {
-            Some(LayerKind::Surface(surface)) => Asked::of(surface),
-            _ => Asked::NOTHING,
+            Some(LayerKind::Surface(surface)) => LayerGoal::of(surface),
+            _ => LayerGoal::NOTHING,
         });
         let (bisected, summed) = (Arc::default(), Vec::new());
         Self { asked: asked.collect(), samples, bisected, summed, exceeded_count: None }
     }
 
     /// Returns the layers of the samples, from the top to the bottom, with what they ask for.
-    fn layers(&self) -> impl Iterator<Item = (&LayerSamples, &Asked)> {
+    fn layers(&self) -> impl Iterator<Item = (&LayerSamples, &LayerGoal)> {
         self.samples.layers.iter().zip(&self.asked)
     }
 
@@ -221,7 +221,7 @@ impl SurfaceRule {
     /// allowed or forbidden, by the largest difference.
     fn demand_of_difference(
         &self,
-        (layer, asked): (&LayerSamples, &Asked),
+        (layer, asked): (&LayerSamples, &LayerGoal),
         triangle: &SurfaceTriangle,
         heights: [f64; 3],
     ) -> SurfaceDemand {
@@ -239,8 +239,9 @@ impl SurfaceRule {
 
     /// Returns a layer whose largest difference a triangle exceeds, or that of a layer of errors over it,
     /// with the difference that the layer allows.
-    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, &Asked)> {
-        let can_ask = |layer: &LayerSamples, asked: &Asked| asked.error.is_finite() || layer.errors.is_some();
+    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, &LayerGoal)> {
+        let can_ask =
+            |layer: &LayerSamples, asked: &LayerGoal| asked.error.is_finite() || layer.errors.is_some();
         let mut asking =
             self.layers().filter(|(layer, asked)| can_ask(layer, asked) && layer.may_ask(triangle));
         asking.find(|(layer, asked)| match triangle.heights {
@@ -251,7 +252,12 @@ impl SurfaceRule {
     }
 
     /// Returns what a norm says about a triangle of the domain. `nodes` keeps the heights at nodes.
-    pub(super) fn measure(&self, element: &Element, nodes: &mut SurfaceNodes, norm: SurfaceNorm) -> Measured {
+    pub(super) fn measure(
+        &self,
+        element: &Element,
+        nodes: &mut SurfaceNodes,
+        norm: SurfaceNorm,
+    ) -> MeasuredTriangle {
         let triangle = nodes.triangle(element, &self.samples);
         let asking = || {
             let counted = self.layers().filter(|(_, asked)| asked.is_counted(norm));
@@ -261,7 +267,7 @@ impl SurfaceRule {
             || self.layer_exceeded(&triangle).is_some()
             || (triangle.heights.is_none() && asking().any(|layer| layer.has_sample(triangle.corners)));
         let error = self.error_of_triangle(&triangle, norm);
-        Measured { is_bound, error, may_be_bisected: asking().next().is_some(), is_inside: true }
+        MeasuredTriangle { is_bound, error, may_be_bisected: asking().next().is_some(), is_inside: true }
     }
 
     /// Returns the error of a triangle, given by its corners, by a norm: the largest difference from the

@@ -113,7 +113,7 @@ pub(super) enum SampleValues {
 
 /// The plane through the surface at the corners of a triangle, in the coordinates of a grid of samples:
 /// columns and rows.
-pub(super) struct Plane {
+pub(super) struct SamplePlane {
     pub(super) corners: [DVec2; 3],
     at_first: f64,
     pub(super) gradient: DVec2,
@@ -313,17 +313,17 @@ impl SampleGrid {
     }
 
     /// Returns the plane with these heights at corners in world units.
-    pub(super) fn plane(&self, corners: [DVec2; 3], heights: [f64; 3]) -> Plane {
+    pub(super) fn plane(&self, corners: [DVec2; 3], heights: [f64; 3]) -> SamplePlane {
         let corners = corners.map(|corner| (corner - self.first) / self.step);
         let [a, b, c] = corners;
         let (u, v) = (b - a, c - a);
         let [to_b, to_c] = [heights[1] - heights[0], heights[2] - heights[0]];
         let gradient = DVec2::new(to_b * v.y - to_c * u.y, to_c * u.x - to_b * v.x) / u.perp_dot(v);
-        Plane { corners, at_first: heights[0], gradient }
+        SamplePlane { corners, at_first: heights[0], gradient }
     }
 }
 
-impl Plane {
+impl SamplePlane {
     /// Returns the rows of a grid that meet the closed triangle.
     pub(super) fn rows(&self, grid: &SampleGrid) -> impl Iterator<Item = SampleRow> {
         let [columns, rows] = grid.size;

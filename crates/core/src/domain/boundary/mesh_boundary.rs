@@ -60,7 +60,7 @@ impl MeshBoundary {
     /// Returns the boundary of a mesh in pieces that were found before.
     pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
         let edges: Vec<[DVec2; 2]> = edges(extract).collect();
-        let candidates = Candidates::new(extract, &pieces);
+        let candidates = PieceCandidates::new(extract, &pieces);
         let mut piece_of_edge = vec![0; edges.len()];
         for numbers in extract.boundary_edge_loops() {
             let choices: Vec<Choice> = numbers.iter().map(|&n| candidates.of_edge(edges[n])).collect();
@@ -164,7 +164,7 @@ impl MeshBoundary {
 }
 
 /// The pieces that an edge may belong to.
-struct Candidates<'a> {
+struct PieceCandidates<'a> {
     pieces: &'a BoundaryPieces,
     frame: Rect,
     /// The side of the frame that each piece is on.
@@ -179,7 +179,7 @@ fn edges(extract: &Extract) -> impl Iterator<Item = [DVec2; 2]> {
 /// How much farther than the nearest a piece may be, in lengths of the edge.
 const MARGIN: f64 = 2.0;
 
-impl<'a> Candidates<'a> {
+impl<'a> PieceCandidates<'a> {
     fn new(extract: &Extract, pieces: &'a BoundaryPieces) -> Self {
         let frame = extract.lattice().bounds();
         let sides = pieces.list().iter().map(|piece| side_of_frame(piece, &frame)).collect();

@@ -124,7 +124,7 @@ impl DepthContour {
         if self.smallest_inlet > 0.0 {
             opening::open(&mut water, raster, lengths, self.smallest_inlet);
         }
-        let rings = trace::rings(&trace::Water {
+        let rings = trace::rings(&trace::WaterPixels {
             bounds: raster.bounds(),
             size: raster.size(),
             depths: &depths,

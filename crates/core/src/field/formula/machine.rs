@@ -6,7 +6,7 @@ use crate::field::Bounds;
 
 /// A description of the values of a part of a formula over a rectangle: bounds, bounds with derivatives, or a
 /// model.
-pub(super) trait Values: Copy {
+pub(super) trait Enclosure: Copy {
     /// Returns the description that follows from bounds alone.
     fn of_bounds(bounds: Bounds) -> Self;
 
@@ -34,7 +34,7 @@ const TRUTH: Bounds = Bounds::new(0.0, 1.0);
 const TINY_STACK: usize = 4;
 
 /// Returns the description of the values of a program, from the descriptions of x, y and the third value.
-pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
+pub(super) fn run<V: Enclosure>(program: &Program, values: [V; 3]) -> V {
     let (slots, code) = (program.slots(), program.code());
     if slots <= TINY_STACK {
         run_on::<V, TINY_STACK>(code, values)
@@ -45,7 +45,7 @@ pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
     }
 }
 
-fn run_on<V: Values, const SLOTS: usize>(code: &[Op], [x, y, third]: [V; 3]) -> V {
+fn run_on<V: Enclosure, const SLOTS: usize>(code: &[Op], [x, y, third]: [V; 3]) -> V {
     let unknown = V::of_bounds(Bounds::ANYTHING);
     Machine { stack: &mut [unknown; SLOTS], top: 0, x, y, third }.run(code, unknown)
 }
@@ -60,7 +60,7 @@ struct Machine<'a, V> {
     third: V,
 }
 
-impl<V: Values> Machine<'_, V> {
+impl<V: Enclosure> Machine<'_, V> {
     fn push(&mut self, value: V) {
         self.stack[self.top] = value;
         self.top += 1;

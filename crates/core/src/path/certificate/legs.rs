@@ -132,12 +132,12 @@ impl PathCertificate {
         self.widest(|_| true).and_then(|leg| self.legs[leg].certificate.end())
     }
 
-    /// Returns how many programmes were solved.
-    pub fn programmes(&self) -> usize {
-        self.legs.iter().map(|leg| leg.certificate.programmes()).sum()
+    /// Returns how many programs were solved.
+    pub fn programs(&self) -> usize {
+        self.legs.iter().map(|leg| leg.certificate.programs()).sum()
     }
 
-    /// Returns how many nodes the meshes of the last programmes had.
+    /// Returns how many nodes the meshes of the last programs had.
     pub fn nodes(&self) -> usize {
         self.legs.iter().map(|leg| leg.certificate.nodes()).sum()
     }
@@ -147,7 +147,7 @@ impl PathCertificate {
         self.legs.first().map(|leg| leg.certificate.stop_signal()).unwrap_or_default()
     }
 
-    /// Solves one programme, or takes a step of the search for a better path, for the leg with the widest
+    /// Solves one program, or takes a step of the search for a better path, for the leg with the widest
     /// interval. Returns why all ended, or `None` if it goes on.
     ///
     /// # Errors
@@ -157,7 +157,7 @@ impl PathCertificate {
         Ok(self.end())
     }
 
-    /// Does a slice of [`Self::advance`]. It is done once a programme is solved or a step of a search taken,
+    /// Does a slice of [`Self::advance`]. It is done once a program is solved or a step of a search taken,
     /// or there is nothing more to do.
     ///
     /// # Errors

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
+use super::conic_program::ConicSolution;
 use super::minorant::Minorant;
-use super::programme::ProgrammeSolution;
 use super::quadratic::QuadraticSpace;
-use super::setup::Kept;
+use super::setup::ReachableTriangles;
 
 /// One round aims at leaving at least this part of what is lost: estimates are too rough to aim farther.
 const LEAST_LEFT: f64 = 0.12;
@@ -34,8 +34,8 @@ const SEARCH_STEPS: usize = 60;
 pub(super) fn estimates(
     space: &QuadraticSpace,
     minorants: &[Minorant],
-    solution: &ProgrammeSolution,
-    kept: &Kept,
+    solution: &ConicSolution,
+    kept: &ReachableTriangles,
 ) -> Vec<f64> {
     let distance =
         space.elements[kept.start].flat.centroid().distance(space.elements[kept.goal].flat.centroid());
@@ -62,7 +62,7 @@ pub(super) fn estimates(
 /// bisection gains less.
 ///
 /// A goal that takes many more triangles is approached in several rounds: estimates improve from round to
-/// round, and one large programme costs more than several small ones. No round makes more than `most`
+/// round, and one large program costs more than several small ones. No round makes more than `most`
 /// triangles, unless the goal is to keep [`MOST_LEFT`] of what is lost.
 pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64, most: usize) -> Vec<u32> {
     let all: f64 = estimates.iter().sum();

@@ -46,7 +46,7 @@ pub struct CertificateTask {
     pub upper: f64,
     /// The requested width: (upper − lower) / upper.
     pub width: f64,
-    /// Number of nodes of the largest programme. The work also ends before a programme that would take too
+    /// Number of nodes of the largest program. The work also ends before a program that would take too
     /// long.
     pub most_nodes: usize,
 }
@@ -61,9 +61,9 @@ pub enum CertificateEnd {
     UpperBoundLimits,
     /// Finer triangles no longer raise the bound.
     NoMoreGain,
-    /// The mesh has as many nodes as the task allows, or the next programme would take too much work.
+    /// The mesh has as many nodes as the task allows, or the next program would take too much work.
     TooLarge,
-    /// The solver failed. The bound is that of the programmes before.
+    /// The solver failed. The bound is that of the programs before.
     SolverFailed,
 }
 

@@ -1,13 +1,13 @@
-//! A programme of a certificate, from its triangles to its solution.
+//! A program of a certificate, from its triangles to its solution.
 
 use rayon::prelude::*;
 
 use super::Certificate;
+use super::conic_program::ConicSolution;
 use super::edges::lower_at_edges;
 use super::minorant::Minorant;
-use super::programme::ProgrammeSolution;
 use super::quadratic::{QuadraticElement, QuadraticSpace};
-use super::setup::Kept;
+use super::setup::ReachableTriangles;
 use super::solver::ConeSolver;
 use crate::mesh::Progress;
 use crate::path::PathError;
@@ -17,36 +17,36 @@ const TOGETHER: usize = 16;
 /// So many times as many for each thread are computed in a slice.
 const IN_SLICE: usize = 4;
 
-/// A programme that is not solved yet, and its triangles.
-pub(super) struct ProgrammeUnderWay {
-    pub kept: Kept,
+/// A program that is not solved yet, and its triangles.
+pub(super) struct ProgramUnderWay {
+    pub kept: ReachableTriangles,
     pub space: QuadraticSpace,
     /// The functional v(goal) − v(start), as weights of values.
     pub gain: Vec<(u32, f64)>,
 }
 
 /// What is done next, with what is there for it.
-pub(super) enum Stage {
+pub(super) enum ProgramStage {
     /// Affine functions below the cost are found for the other triangles, each with its level.
     Minorants(Vec<(u32, Minorant)>),
     /// They are compared at the edges.
     Edges(Vec<(u32, Minorant)>),
-    /// The programme is made.
+    /// The program is made.
     Begin(Vec<Minorant>),
     Solve(Vec<Minorant>, Box<ConeSolver>),
-    Solved(Vec<Minorant>, ProgrammeSolution),
+    Solved(Vec<Minorant>, ConicSolution),
 }
 
-/// The programme that is under way, if there is one. A clone begins it again, with the same result.
+/// The program that is under way, if there is one. A clone begins it again, with the same result.
 #[derive(Default)]
-pub(super) struct UnderWay(Option<Box<(ProgrammeUnderWay, Stage)>>);
+pub(super) struct UnderWay(Option<Box<(ProgramUnderWay, ProgramStage)>>);
 
 impl UnderWay {
-    pub fn of(work: ProgrammeUnderWay, next: Stage) -> Self {
+    pub fn of(work: ProgramUnderWay, next: ProgramStage) -> Self {
         Self(Some(Box::new((work, next))))
     }
 
-    pub fn take(&mut self) -> Option<(ProgrammeUnderWay, Stage)> {
+    pub fn take(&mut self) -> Option<(ProgramUnderWay, ProgramStage)> {
         self.0.take().map(|work| *work)
     }
 }
@@ -61,7 +61,7 @@ impl Certificate {
     /// Finds affine functions below the cost for some more triangles of the space, with their levels.
     pub(super) fn find_minorants(
         &self,
-        work: &ProgrammeUnderWay,
+        work: &ProgramUnderWay,
         found: &mut Vec<(u32, Minorant)>,
     ) -> Progress {
         let inset = self.inset();

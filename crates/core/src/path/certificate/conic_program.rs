@@ -1,4 +1,4 @@
-//! The dual as a second-order cone programme.
+//! The dual problem as a second-order cone program (SOCP).
 //!
 //! ```text
 //! maximize    v(goal) − v(start)
@@ -16,7 +16,7 @@ use super::quadratic::QuadraticSpace;
 use super::solver::ConeSolver;
 
 /// The solver's answer. It need not be optimal or feasible to be useful.
-pub(super) struct ProgrammeSolution {
+pub(super) struct ConicSolution {
     /// The values of v, in the unit of the cost.
     pub function: Vec<f64>,
     /// For each triangle and corner the multiplier of its cone in world coordinates: the amount and the
@@ -26,8 +26,8 @@ pub(super) struct ProgrammeSolution {
     pub steps: u32,
 }
 
-/// The programme of a space of functions.
-pub(super) struct Programme<'a> {
+/// The second-order cone program of a space of functions.
+pub(super) struct ConicProgram<'a> {
     pub space: &'a QuadraticSpace,
     /// ℓ in each triangle.
     pub minorants: &'a [Minorant],
@@ -41,7 +41,7 @@ pub(super) struct Programme<'a> {
     pub accuracy: f64,
 }
 
-impl Programme<'_> {
+impl ConicProgram<'_> {
     /// Begins to solve it. `None` where the solver does not take it.
     pub(super) fn solver(&self) -> Option<ConeSolver> {
         let rows = 9 * self.space.elements.len();
@@ -59,10 +59,10 @@ impl Programme<'_> {
     }
 
     /// Returns the solution. `None` where the solver failed so badly that there is no answer.
-    pub(super) fn solution(&self, solver: &ConeSolver) -> Option<ProgrammeSolution> {
+    pub(super) fn solution(&self, solver: &ConeSolver) -> Option<ConicSolution> {
         let solution = solver.solution();
         let is_finite = solution.x.iter().all(|value| value.is_finite());
-        is_finite.then(|| ProgrammeSolution {
+        is_finite.then(|| ConicSolution {
             function: self.function(&solution.x),
             flows: self.flows(&solution.z),
             steps: solution.iterations,
