@@ -111,7 +111,7 @@ pub use meshbrush_core::earth::{
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};
 #[doc(inline)]
 pub use meshbrush_io::io::{
-    Cancelled, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Place as PlaceInFile,
+    Cancelled, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues, PlaceInFile,
     Provenance, ReadError, ThirdCoordinate,
 };
 #[doc(inline)]

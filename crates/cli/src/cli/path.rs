@@ -95,7 +95,7 @@ pub fn run(
     let about = asked.about(finished.domain());
     let write = |file| write_certificate(file, certificate.as_ref(), &about, &provenance, terminal);
     typed.certificate.as_deref().map_or(Ok(()), write)?;
-    let answer = Answer::new(&export, extract.triangles().len(), seconds);
+    let answer = PathAnswer::new(&export, extract.triangles().len(), seconds);
     answer.print(typed.json, export.solution().gap(), out)
 }
 
@@ -336,7 +336,7 @@ impl PathOutput {
 
 /// The answer of `--json`.
 #[derive(Serialize)]
-struct Answer {
+struct PathAnswer {
     /// The cost of the path.
     cost: f64,
     /// No path costs less; 0 where no bound is known.
@@ -362,7 +362,7 @@ struct Answer {
     seconds: f64,
 }
 
-impl Answer {
+impl PathAnswer {
     fn new(export: &PathExport<'_>, triangles: usize, seconds: f64) -> Self {
         let Solution { cost, lower, upper, risk, highest_risk, .. } = *export.solution();
         let PathLengths { length, in_plane: length_in_plane, seconds: travel_seconds } = *export.lengths();

@@ -11,7 +11,7 @@ use crate::app::kit::{FrameState, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 use meshbrush_mesh::mesh::bisection_edge_length;
-use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer, StepStage};
+use meshbrush_study::steps::{NeighbourCase, RecordedStep, StepAction, StepPlayer, StepStage};
 
 /// Width of the panel, in points: a line of pseudo-code fits.
 pub const WIDTH: f32 = 488.0;
@@ -183,7 +183,7 @@ fn row(ui: &mut Ui, label: &str, value: &str, help: &str) {
 }
 
 /// (k, O, O_b) with the routine that it chooses.
-fn case(step: &Step) -> String {
+fn case(step: &RecordedStep) -> String {
     let is_known = matches!(
         step.action,
         StepAction::Divisible | StepAction::Bisect | StepAction::Pop | StepAction::UpdateNeighbours(_)

@@ -231,7 +231,7 @@ fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
     let names = &mut PartNames::default();
     let parts = &mut PartReader { archive: &archive, names, meter, polygons: None };
     let settings = saved.into_settings(parts).map_err(|flaw| match flaw.place {
-        super::Place::Part(..) => flaw,
+        super::PlaceInFile::Part(..) => flaw,
         _ => flaw.within(SETTINGS),
     })?;
     let paint = paint(&archive, &settings, meter)?;

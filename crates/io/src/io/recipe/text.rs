@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::super::error::PlacedFlaw;
 use super::super::settings::SavedSettings;
 use super::super::values::TextValue;
-use super::super::{Flaw, KeyFault, Mark, Place, ReadError, Step};
+use super::super::{Flaw, KeyFault, Mark, PlaceInFile, ReadError, Step};
 use meshbrush_core::field::formula::draw_pointer;
 use meshbrush_mesh::text::excerpt;
 
@@ -69,7 +69,7 @@ impl RecipeText {
                 &drawn
             }
         };
-        let place = Place::Column {
+        let place = PlaceInFile::Column {
             line: text[..line_start].matches('\n').count() + 1,
             column: line[..start_in_line].chars().count() + 1,
         };

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
-use super::super::error::{Flaw, Place, PlacedFlaw, ReadError};
+use super::super::error::{Flaw, PlaceInFile, PlacedFlaw, ReadError};
 use super::super::json::{self, JsonFlaw};
 use super::super::project::{PartNames, Project};
 use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
@@ -102,11 +102,11 @@ fn check_head(line: &[u8]) -> Result<(), PlacedFlaw> {
 fn parsed<T: DeserializeOwned>(line: usize, text: &[u8]) -> Result<T, PlacedFlaw> {
     json::parse(text).map_err(|JsonFlaw { sentence, column, .. }| {
         let flaw = Flaw::Syntax(format!("the line is not valid: {sentence}"));
-        PlacedFlaw { place: Place::Column { line, column }, flaw }
+        PlacedFlaw { place: PlaceInFile::Column { line, column }, flaw }
     })
 }
 
 /// Returns the flaw of a line.
 pub(super) fn at(flaw: PlacedFlaw, line: usize) -> PlacedFlaw {
-    PlacedFlaw { place: Place::Line(line), ..flaw }
+    PlacedFlaw { place: PlaceInFile::Line(line), ..flaw }
 }

@@ -19,7 +19,7 @@ use meshbrush_mesh::mesh::{Changes, Mesh};
 #[derive(Debug)]
 pub struct KeptPicture {
     image: Image,
-    drawn: Option<Drawn>,
+    drawn: Option<DrawnContents>,
     since: Since,
     groups: TriangleGroups,
     corners: Corners,
@@ -27,7 +27,7 @@ pub struct KeptPicture {
 
 /// The contents of the picture.
 #[derive(Debug)]
-struct Drawn {
+struct DrawnContents {
     revision: ShownRevision,
     camera: Camera,
     style: Style,
@@ -98,7 +98,7 @@ impl KeptPicture {
         let since = self.checked(since, revision);
         self.follow(&since, mesh, camera);
         let damage = self.damage(&since, mesh, revision, camera, style);
-        self.drawn = Some(Drawn { revision, camera: *camera, style: style.clone() });
+        self.drawn = Some(DrawnContents { revision, camera: *camera, style: style.clone() });
         if self.image.size != camera.size_px() {
             self.image = Image::filled(camera.size_px(), ground(style));
         }
