@@ -12,7 +12,7 @@ use crate::mesh::kernel::{
     LevelAndSide, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId, append_pieces,
 };
 
-/// The changes of a mesh before it is exported. All ids are indices into the mesh's own arrays
+/// What changes in a mesh when it is exported. All ids are indices into the mesh's own arrays
 /// ([`Mesh::raw_nodes`], [`Mesh::raw_triangles`]); added nodes follow the mesh's.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshPatch {
@@ -32,7 +32,7 @@ pub struct MeshPatch {
 pub struct PatchTriangle {
     /// Nodes, anticlockwise, the first two the ends of the longest edge.
     pub corners: [NodeId; 3],
-    /// The level of the triangle of the mesh that it takes the place of.
+    /// The level of the triangle of the mesh that it replaces.
     pub level: u32,
 }
 
@@ -51,7 +51,7 @@ impl MeshPatch {
         moved.map_or_else(|_| mesh.node(node), |n| self.moved[n].1)
     }
 
-    /// Returns whether no triangle is left of a mesh with the patch.
+    /// Returns whether a mesh with the patch has no triangle left.
     pub fn leaves_nothing_of(&self, mesh: &Mesh) -> bool {
         let replaced = self.changed.iter().filter(|(id, _)| mesh.is_in_domain(*id)).count();
         self.pieces.is_empty() && replaced == mesh.triangle_count()
@@ -74,8 +74,8 @@ impl PatchTriangle {
 }
 
 impl Mesh {
-    /// Returns the part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at
-    /// the place of the triangles that they replace. All threads work on it.
+    /// Returns the part of the mesh that belongs to the domain, with the changes of a patch. Pieces take the
+    /// place of the triangles that they replace. All threads work on it.
     ///
     /// # Panics
     /// Panics when the patch is of another mesh.
@@ -239,7 +239,7 @@ impl Assembly {
     }
 }
 
-/// Makes neighbours of triangles that have an edge in common, in opposite directions.
+/// Links triangles that share an edge, in opposite directions, as neighbours.
 fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
     // Edges with one known triangle.
     let mut open: NumberMap<(NodeId, NodeId), (usize, usize)> = NumberMap::default();

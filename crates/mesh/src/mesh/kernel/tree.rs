@@ -83,7 +83,7 @@ impl TreeTriangle {
         children.into_iter().find(|child| !child.is_same(self))
     }
 
-    /// Returns the triangles that this one is part of, from the coarse one to its parent.
+    /// Returns the ancestors of this triangle, from the coarse one to its parent.
     pub fn ancestors(&self, lattice: &Lattice) -> Vec<Self> {
         let mut ancestors: Vec<_> =
             std::iter::successors(self.parent(lattice), |triangle| triangle.parent(lattice)).collect();

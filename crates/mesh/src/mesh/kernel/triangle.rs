@@ -179,7 +179,7 @@ impl Triangle {
         self.vertices[3 - self.bisection_end()]
     }
 
-    /// Returns the vertex that came into being with this triangle; `None` for a coarse triangle.
+    /// Returns the vertex that the bisection that made this triangle created; `None` for a coarse triangle.
     ///
     /// It is the apex: bisection puts the midpoint opposite the children's bisection edges.
     #[doc(alias = "peak")]

@@ -26,7 +26,7 @@ use crate::mesh::kernel::{
 
 /// Triangles of a batch, unless a slice is smaller.
 const BATCH: usize = 4096;
-/// The memory for more nodes is not used again: a map is emptied in time that is proportional to its room.
+/// Memory for more nodes than this is not reused: emptying a map takes time proportional to its capacity.
 const MOST_KEPT: usize = 1 << 16;
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves

@@ -1,4 +1,4 @@
-//! The parts of an extract: triangles that edges join.
+//! The parts of an extract: the connected components of its triangles, joined by edges.
 
 use std::cmp::Reverse;
 

@@ -6,14 +6,14 @@
 //!   write     number the triangles and nodes of all blocks, copy them from templates     all threads
 //! ```
 //!
-//! Away from the lines where the level changes, a mesh is uniform: nearly all triangles come in blocks of
-//! hundreds, and a block needs no bisections one by one. A *template* has its triangles in the order in which
+//! Away from the lines where the level changes, a mesh is uniform: nearly all triangles belong to blocks of
+//! hundreds, which need not be bisected one by one. A *template* has its triangles in the order in which
 //! bisection makes them, so that they have the vertices, orientations and neighbours that Algorithm 12 gives
 //! them.
 //!
 //! The skeleton is made in the arrays of the mesh itself, and the blocks are written around it: an entry of
-//! the skeleton is read until the block of that entry is written. What the neighbours of a block must know of
-//! it is kept in two bytes. So nothing is there twice.
+//! the skeleton is read until the block of that entry is written. What the neighbours of a block must know
+//! about it is kept in two bytes, so that nothing is stored twice.
 //!
 //! Every bisection is necessary: those of the survey, because a triangle exceeds its target; those of the
 //! skeleton besides, because the triangle across an edge has a node there. So the mesh is the smallest

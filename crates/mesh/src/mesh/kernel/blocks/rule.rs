@@ -3,8 +3,8 @@
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::Answer;
 
-/// A refinement rule that several threads can ask. It must be monotone: what satisfies it, all triangles
-/// within satisfy too.
+/// A refinement rule that several threads can ask. It must be monotone: all triangles within a triangle that
+/// satisfies it satisfy it too.
 pub trait SharedRule: Sync {
     /// Why the rule cannot answer; [`Infallible`](std::convert::Infallible) where it always can.
     type Error: Send;
@@ -13,7 +13,7 @@ pub trait SharedRule: Sync {
     fn answers(&self) -> impl RuleAnswers<Error = Self::Error>;
 
     /// Returns how many questions are worth another thread: they should take longer than the tenth of a
-    /// millisecond in which it wakes and works.
+    /// millisecond that it needs to wake up.
     fn questions_per_thread(&self) -> usize {
         1024
     }

@@ -8,8 +8,8 @@
 //!          satisfied     satisfied
 //! ```
 //!
-//! Tasks go down the tree depth first. Each asks a limited number of questions; what it leaves open are the
-//! tasks of the next round. So tasks are small, and few levels of the tree are enough to keep all threads
+//! Tasks go down the tree depth first. Each asks a limited number of questions; what it leaves open becomes
+//! the tasks of the next round. So tasks are small, and few levels of the tree are enough to keep all threads
 //! busy.
 
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ use crate::mesh::kernel::{Limits, Mesh, Progress, RefineError, TriangleId};
 
 /// The most triangles whose children a task asks about.
 const TASK_VISITS: usize = 2048;
-/// About so many tasks a round is divided into, where it has enough subtrees.
+/// About the number of tasks into which a round is divided, where it has enough subtrees.
 const TASKS: usize = 64;
 /// The most subtrees of a task.
 const MOST_SUBTREES: usize = 64;
@@ -168,7 +168,7 @@ impl Survey {
         self.next == 0 && self.triangles == 0 && self.slots.len() == self.round.len()
     }
 
-    /// Takes what the task has found whose first subtree is this one of the round.
+    /// Takes the result of the task whose first subtree is this one of the round.
     fn take(&mut self, found: SurveyPart, first: usize) {
         let SurveyPart { slots, open, subtrees, triangles, capped, .. } = found;
         self.triangles += triangles;

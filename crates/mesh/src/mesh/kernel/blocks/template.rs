@@ -11,7 +11,7 @@ use crate::mesh::kernel::{
 /// The most levels by which a block is refined: 256 triangles, 8 KB of them.
 pub(super) const MOST_DEPTH: u32 = 8;
 
-/// A triangle after so many uniform bisections, in numbers of its own.
+/// A triangle after a number of uniform bisections, with its own numbering.
 ///
 /// ```text
 ///                 2
@@ -105,7 +105,7 @@ impl Template {
         LatticePoint::new(at(a.x, b.x, c.x), at(a.y, b.y, c.y))
     }
 
-    /// Bisects a triangle of this level, 0 or 1, and numbers what comes of it.
+    /// Bisects a triangle of this level, 0 or 1, and numbers the resulting triangles.
     fn new(depth: u32, level: u32, orientation: Orientation) -> Self {
         let block = single_triangle(depth, level, orientation);
         let mesh = refined(block.clone(), level + depth);

@@ -21,7 +21,7 @@ use crate::mesh::kernel::{
     LevelAndSideCounts, LimitError, Limits, Mesh, Neighbour, NodeId, Progress, Triangle, TriangleId,
 };
 
-/// About so many triangles are a chunk, which is written by one thread.
+/// About the number of triangles in a range of blocks, which one thread writes.
 const CHUNK_TRIANGLES: usize = 1 << 14;
 /// The fewest chunks of a slice for each thread.
 const CHUNKS_PER_THREAD: usize = 2;
@@ -75,7 +75,8 @@ struct BlockRange {
 }
 
 impl Writer {
-    /// Creates the work of refining each triangle of `skeleton` by so many levels, with nothing written yet.
+    /// Creates the work of refining each triangle of `skeleton` by the number of levels in `depths`, with
+    /// nothing written yet.
     pub fn new(skeleton: &Mesh, depths: Vec<u8>) -> Self {
         let corners = skeleton.nodes.len();
         let free = Free { triangle: skeleton.triangles.len() as u32, node: corners as u32 };

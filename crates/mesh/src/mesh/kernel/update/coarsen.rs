@@ -16,7 +16,7 @@ pub(super) struct Freed {
 
 impl Updater {
     /// Looks at up to `most` triangles whose newest vertex may be free to go, and removes the nodes that are.
-    /// Returns at how many triangles it looked.
+    /// Returns how many triangles it looked at.
     pub(super) fn coarsen_on<R: SharedRule>(
         &mut self,
         mesh: &mut Mesh,
@@ -43,8 +43,8 @@ impl Updater {
         Ok(looked)
     }
 
-    /// Takes marks until it has looked at `most` triangles. Returns at how many it looked, and the stars
-    /// found, each once.
+    /// Takes marks until it has looked at `most` triangles. Returns how many it looked at, and each star
+    /// found once.
     fn take_stars(&mut self, mesh: &Mesh, most: usize) -> (usize, Vec<LooseStar>) {
         let mut stars = std::mem::take(&mut self.stars);
         for looked in 0..most {

@@ -40,7 +40,7 @@ impl Updater {
         batch.clear();
         self.batch = batch;
         match result {
-            // What can go may make room, also where it is not searched yet.
+            // Nodes that can be removed may make room, even where nothing was searched yet.
             Err(error) if error.is_over_budget() && (self.has_areas() || self.loose.count() > 0) => {
                 self.is_short = true;
                 Ok(done)
