@@ -14,7 +14,7 @@ use super::{Region, Ring};
 use crate::earth::{Coordinates, Projection, Reprojection};
 use crate::geometry::Rect;
 
-/// Longitudes are told apart by so many parts of a circle, to find where the outline is not.
+/// Number of parts of a circle by which longitudes are distinguished, to find where the outline is not.
 const PARTS_OF_CIRCLE: usize = 720;
 /// How far a corner may be from the straight line between its neighbours, as a share of the width of the
 /// outline: an edge that was divided is still straight.

@@ -87,7 +87,7 @@ fn points(plane: EarthPlane, extent: Rect, is_meridian: bool, degrees: f64) -> V
     in_plane.filter(|at| at.is_finite()).collect()
 }
 
-/// Returns a longitude or latitude of so many minutes with the digits that its step has: `5° 30′ W`.
+/// Returns a longitude or latitude, given in minutes, with the digits that its step has: `5° 30′ W`.
 fn label(minutes: f64, step: f64, is_meridian: bool) -> String {
     let decimals = (0..9).find(|&n| (step * libm::exp10(f64::from(n))).fract() < 1e-9).unwrap_or(9);
     let minutes = if is_meridian { 60.0 * wrapped(minutes / 60.0) } else { minutes };

@@ -155,7 +155,7 @@ impl Cell {
 }
 
 impl Bands {
-    /// Returns the bands for cells with sides of so many lattice steps.
+    /// Returns the bands for cells with sides of `side` lattice steps.
     fn of(cells: &[Cell], side: u32) -> Self {
         let least = cells.iter().map(|cell| cell.least_in([0, 0], side)).fold(f64::INFINITY, f64::min);
         let greatest = cells.iter().map(|cell| cell.greatest).fold(least, f64::max);

@@ -8,7 +8,7 @@ pub(super) struct SquareValues<T> {
 }
 
 impl<T: Copy> SquareValues<T> {
-    /// Returns the values of squares in so many columns.
+    /// Returns the values of squares in `columns` columns.
     pub fn new(columns: u32, values: Vec<T>) -> Self {
         Self { columns, values }
     }

@@ -103,7 +103,7 @@ impl Band {
         in_band.chain(beside).collect()
     }
 
-    /// Returns nodes and those within so many rings of triangles around them.
+    /// Returns nodes and those within `rings` rings of triangles around them.
     pub(super) fn near(&self, nodes: &[u32], rings: usize) -> Vec<u32> {
         let mut is_near = vec![false; self.points.len()];
         nodes.iter().for_each(|&v| is_near[v as usize] = true);
@@ -177,7 +177,7 @@ impl<N: Numbers> RingSearch<N> {
         }
     }
 
-    /// Adds so many rings of triangles around nodes.
+    /// Adds `rings` rings of triangles around nodes.
     fn grow_from(&mut self, mesh: &Mesh, nodes: &[NodeId], rings: usize) {
         nodes.iter().for_each(|&node| self.add_node(node));
         let mut first = 0;

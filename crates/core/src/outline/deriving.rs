@@ -12,7 +12,7 @@ use super::{DerivedMesh, OutlineFollower};
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Cleaning, Mesh, MeshPatch, Progress};
 
-/// A follower takes in so many triangles in a step.
+/// Number of triangles that a follower takes in per step.
 const AT_ONCE: usize = 4096;
 
 /// The work of [`DerivedMesh::new`], and of [`OutlineFollower::new`] where that is asked for: both from one
@@ -50,7 +50,7 @@ impl MeshDerivation {
         self.advance_by(AT_ONCE)
     }
 
-    /// Takes one step, in which a follower takes in at most so many triangles.
+    /// Takes one step, in which a follower takes in at most `triangles` triangles.
     pub fn advance_by(&mut self, triangles: usize) -> Progress {
         self.step = match (
             std::mem::replace(&mut self.step, DerivationStep::Done),

@@ -34,7 +34,7 @@ enum FittingStage {
     Pin(NodePlacement),
     Retreat(NodePlacement, Vec<Pin>),
     Divide(NodePlacement, Vec<Pin>),
-    /// After so many steps of [`FittedPieces::improved`].
+    /// After this number of steps of [`FittedPieces::improved`].
     Improve(Box<FittedPieces>, usize),
 }
 

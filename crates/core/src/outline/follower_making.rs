@@ -28,7 +28,7 @@ impl FollowerMaking {
         Self { follower, written: Written::of(fitted), done: 0 }
     }
 
-    /// Takes in at most so many triangles. Returns the follower at the end.
+    /// Takes in a limited number of triangles. Returns the follower at the end.
     pub fn advance(
         self,
         mesh: &Mesh,

@@ -32,7 +32,7 @@ pub(super) struct Rings {
 }
 
 impl Rings {
-    /// Finds the nodes within so many rings of the `first` ones, through triangles that `pass`.
+    /// Finds the nodes within a number of rings of the `first` ones, through triangles that `pass`.
     pub(super) fn around(
         mesh: &Mesh,
         first: impl IntoIterator<Item = NodeId>,
@@ -141,8 +141,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Derives the window in which so many rings around some nodes are right, through triangles that `pass`:
-    /// all that may be in the band. `touches` says of a triangle whether the outline touches it.
+    /// Derives the window in which a number of rings around some nodes are right, through triangles that
+    /// `pass`: all that may be in the band. `touches` says of a triangle whether the outline touches it.
     pub(super) fn new(
         mesh: &Mesh,
         outline: &OutlineOnLattice,

@@ -215,7 +215,7 @@ impl Stroke {
             Entry::Occupied(entry) => {
                 let covered = entry.into_mut();
                 if !covered.grow(&mut coverage) {
-                    // Nothing to paint, but the tile counts as drawn: a slice ends after so many tiles.
+                    // Nothing to paint, but the tile counts as drawn: a slice ends after a number of tiles.
                     return Some(covered.range);
                 }
                 (&*covered, &coverage)

@@ -53,7 +53,7 @@ impl RimDivision {
         Some(Self { bisection, coarsest, before })
     }
 
-    /// Bisects so many triangles.
+    /// Bisects `triangles` triangles.
     pub fn advance(&mut self, mesh: &mut PathMesh, triangles: usize) -> Progress {
         let mut importance =
             |mesh: &PathMesh, t: u32| Ok::<_, Infallible>(importance_at_rim(mesh, t, self.coarsest));

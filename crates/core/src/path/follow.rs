@@ -15,7 +15,7 @@ use super::{CostDensity, Passage, PathError, Planner};
 use crate::geometry::Rect;
 use crate::mesh::Progress;
 
-/// One thread computes the costs of so many triangles in a step.
+/// Number of triangles whose costs one thread computes in a step.
 const AT_ONCE: usize = 2048;
 /// More rectangles in which the cost changed are joined to one.
 const MOST_AREAS: usize = 64;

@@ -159,7 +159,7 @@ fn mean_range(p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64) -> 
     within(range, middle, most)
 }
 
-/// Returns the part of a range that differs by at most so much from a value.
+/// Returns the part of a range that differs from a value by at most `most`.
 fn within(range: CostRange, value: f64, most: f64) -> CostRange {
     CostRange { least: range.least.max(value - most), greatest: range.greatest.min(value + most) }
 }

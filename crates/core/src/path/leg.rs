@@ -18,7 +18,7 @@ use crate::mesh::Progress;
 
 /// The tolerance with which two paths are compared.
 const COMPARED: f64 = 1e-3;
-/// An interval of a shortest way takes as long as so many nodes of a march.
+/// Number of nodes of a march that take as long as an interval of a shortest way.
 const INTERVALS: usize = 8;
 /// Another way is worth a closer look if sketches promise that it costs less by this share.
 const LEAST_GAIN: f64 = 1e-4;
@@ -93,8 +93,8 @@ impl LegSearch {
         Self { leg, ends, request, step, solution, ways: Vec::new(), least: f64::INFINITY }
     }
 
-    /// Takes a step, in which a march accepts at most so many nodes. Returns the path at the end. `places` is
-    /// the number of places of the route.
+    /// Takes a step, in which a march accepts a limited number of nodes. Returns the path at the end.
+    /// `places` is the number of places of the route.
     ///
     /// # Errors
     /// Fails when no march leads to the goal, or the cost of the path is not finite.
@@ -277,7 +277,7 @@ impl LegSearch {
         Some(CornerSearch::new(&planner.mesh, &planner.walls, *ends, solution.length * (greatest / least)))
     }
 
-    /// Looks at most at so many intervals for the shortest way. Returns whether there is more to do.
+    /// Looks at a limited number of intervals for the shortest way. Returns whether there is more to do.
     fn look_around(
         &self,
         search: &mut CornerSearch,

@@ -54,7 +54,7 @@ const MOST_CORRECTIONS: usize = 8;
 const LEAST_GAIN: f64 = 5e-4;
 /// Marches go through triangles that can lie on paths of this many times the upper bound.
 const MARGIN: f64 = 1.05;
-/// A thread looks at so many triangles at a time.
+/// Number of triangles that a thread looks at at a time.
 const TOGETHER: usize = 4096;
 
 /// The problem whose minimum is bounded from below.
@@ -102,8 +102,8 @@ impl LowerBound {
         }
     }
 
-    /// Raises the bound by one function v, or accepts at most so many nodes in the march for it. Returns the
-    /// bound once that is all.
+    /// Raises the bound by one function v, or accepts a limited number of nodes in the march for it. Returns
+    /// the bound once that is all.
     pub fn raise(
         &mut self,
         mesh: &PathMesh,

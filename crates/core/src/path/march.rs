@@ -84,7 +84,7 @@ impl March {
         _ = self.go_on_for(mesh, costs, least, until, usize::MAX);
     }
 
-    /// [`Self::go_on`], for at most so many nodes. Returns whether more are left.
+    /// [`Self::go_on`], for a limited number of nodes. Returns whether more are left.
     pub(super) fn go_on_for(
         &mut self,
         mesh: &PathMesh,

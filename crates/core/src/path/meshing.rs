@@ -8,7 +8,7 @@ use super::path_mesh::PathMesh;
 use super::{Passage, PathArea};
 use crate::mesh::{MeshView, Progress};
 
-/// A thread compares so many triangles with the area at once.
+/// Number of triangles that a thread compares with the area at a time.
 const TOGETHER: usize = 1024;
 
 /// The work of [`PathMesh::in_area`], in slices.
@@ -40,7 +40,7 @@ impl PathMeshing {
         Self { mesh, step }
     }
 
-    /// Looks at about so many triangles. Returns the mesh at the end.
+    /// Looks at about `triangles` triangles. Returns the mesh at the end.
     pub fn advance(&mut self, triangles: usize) -> Option<PathMesh> {
         let Self { mesh, step } = self;
         *step = match std::mem::replace(step, MeshingStep::Done) {

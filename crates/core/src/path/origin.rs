@@ -20,7 +20,7 @@ pub(super) struct WaypointMarch {
 }
 
 impl WaypointMarch {
-    /// Marches from a place, as far as that is not done, and at most for so many nodes. Returns whether more
+    /// Marches from a place unless that is done already, for a limited number of nodes. Returns whether more
     /// are left. `until`: only to the corners of that place's triangle, unless the costs change again and
     /// again.
     pub fn run(

@@ -159,7 +159,7 @@ impl PathMesh {
         mesh
     }
 
-    /// Returns a copy with room for so many more triangles, and nothing derived from them yet.
+    /// Returns a copy with room for `more` further triangles, and nothing derived from them yet.
     pub(super) fn with_room(&self, more: usize) -> Self {
         let (nodes, triangles) = (with_room(&self.nodes, more), with_room(&self.triangles, more));
         self.with_triangles(nodes, triangles, with_room(&self.across, more))
@@ -332,7 +332,7 @@ impl PathMesh {
     }
 }
 
-/// Returns a copy of values with room for so many more.
+/// Returns a copy of values with room for `more` further ones.
 fn with_room<T: Copy>(values: &[T], more: usize) -> Vec<T> {
     let mut copy = Vec::with_capacity(values.len() + more);
     copy.extend_from_slice(values);

@@ -157,8 +157,8 @@ impl Planner {
         legs.into_iter().collect()
     }
 
-    /// Accepts at most so many nodes in the march with this number of those from the places. Returns whether
-    /// more are left; `None` where there is no such march.
+    /// Accepts a limited number of nodes in the march from one of the places, given by its number. Returns
+    /// whether more are left; `None` where there is no such march.
     pub(super) fn march_one(
         &mut self,
         places: &[MeshPlace],
@@ -259,7 +259,7 @@ impl Planner {
         march
     }
 
-    /// Accepts at most so many nodes in the march from the goal. Returns whether more are left.
+    /// Accepts at most `most` nodes in the march from the goal. Returns whether more are left.
     pub(super) fn march_back(&self, march: &mut March, start: MeshPlace, most: usize) -> Progress {
         let until = Some(start.corner_nodes(&self.mesh));
         march.go_on_for(&self.mesh, &self.costs.mean, Passage::Open, until, most)

@@ -37,7 +37,7 @@ pub(super) struct Queue {
 type QueueEntry = u128;
 
 const BUCKETS: usize = 256;
-/// Buckets are so wide that about so many entries are in one.
+/// Buckets are so wide that about this number of entries is in one.
 const IN_A_BUCKET: f64 = 32.0;
 /// A heap with fewer entries is as fast as buckets are.
 const MOST_IN_HEAP: usize = 256;

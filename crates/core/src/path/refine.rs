@@ -62,9 +62,9 @@ pub(super) struct Refining {
 #[derive(Clone, Copy, Debug)]
 enum RefiningStage {
     Begin,
-    /// The first of so many rounds begins.
+    /// The first of these rounds begins.
     Divide(&'static [usize]),
-    /// Vertices move: so many steps, then these rounds.
+    /// Vertices move: the number of steps, then these rounds.
     Relax(Relaxing, usize, &'static [usize]),
 }
 

@@ -37,8 +37,8 @@ impl PathSearch {
         Ok(Self { places, request, step: SearchStep::March(0), found: Vec::new() })
     }
 
-    /// Takes a step, in which a march accepts at most so many nodes. Returns the path at the end, which is
-    /// that of [`Planner::solve`]. Planner and cost are always the same, and nobody else uses the planner
+    /// Takes a step, in which a march accepts a limited number of nodes. Returns the path at the end, which
+    /// is that of [`Planner::solve`]. Planner and cost are always the same, and nobody else uses the planner
     /// meanwhile.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::path_mesh::{NONE, PathMesh, PathTriangle, order_on_curve};
 
-/// A thread looks at so many triangles at a time.
+/// Number of triangles that a thread looks at at a time.
 const TOGETHER: usize = 4096;
 
 /// The nodes and triangles of a new mesh that an old one has, too: those whose coordinates are the same.

@@ -107,7 +107,7 @@ impl CornerSearch {
         Self { start, goal, at_goal, corners, waiting, shortest, last, looked_at }
     }
 
-    /// Looks at the next intervals, at most so many. Returns whether there is more to do.
+    /// Looks at the next intervals, at most `most` of them. Returns whether there is more to do.
     pub fn advance(&mut self, over: &Shortest, most: usize) -> Progress {
         if self.looked_at.is_none() {
             self.see_around(over, Root { at: self.start, node: NONE, length: 0.0 });

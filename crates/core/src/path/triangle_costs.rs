@@ -36,7 +36,7 @@ const GAUSS: [[f64; 3]; 3] = {
 /// A triangle is bisected whose diameter, times how much its cost varies as a share of the least cost, 1 at
 /// most, is above this part of the longer side of all triangles.
 const COARSEST: f64 = 1.0 / 250.0;
-/// A thread computes the costs of so many triangles at a time.
+/// Number of triangles whose costs a thread computes at a time.
 const TOGETHER: usize = 1024;
 
 impl TriangleCosts {
@@ -50,7 +50,7 @@ impl TriangleCosts {
         (0..before.least.len() as u32).filter(differs).collect()
     }
 
-    /// Takes the costs of all triangles, with room for so many more.
+    /// Takes the costs of all triangles, with room for `more` further ones.
     pub(super) fn of_all(costs: &[TriangleCost], more: usize) -> Self {
         let [mut least, mut mean] = [(); 2].map(|()| Vec::with_capacity(costs.len() + more));
         least.extend(costs.iter().map(|cost| cost.least));

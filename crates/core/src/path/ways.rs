@@ -24,7 +24,7 @@ use super::trace::trace;
 use super::walls::Walls;
 use crate::geometry::nearest_on_segment;
 
-/// Valleys are sought on lines at so many equal parts of the way, but for its ends.
+/// Number of equal parts into which lines divide the way; valleys are sought on these lines.
 const PARTS: u32 = 32;
 /// A way counts if marches promise that it costs at most this share more than the best.
 const MOST_EXCESS: f64 = 0.05;

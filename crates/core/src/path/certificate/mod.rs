@@ -1,4 +1,5 @@
-//! A proven lower bound of what any path costs: the best path is within so many percent.
+//! A proven lower bound of what any path costs, which tells by how many percent at most the best known path
+//! exceeds the least cost.
 //!
 //! Let v be a subsolution of the eikonal equation, |∇v| ≤ c. Then no path from start to goal costs less than
 //! v(goal) − v(start): this is weak duality. The greatest such difference is the least cost (strong duality).
@@ -83,7 +84,7 @@ const MOST_ADDED: usize = 60_000;
 const SHORT_DETOUR: f64 = 0.1;
 /// The width of the strip on each side of an edge, in ulps of the largest coordinate.
 const STRIP_ULPS: f64 = 16.0;
-/// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
+/// The gradient grows by at most this factor times the width of a strip, as a share of the smallest triangle.
 const STRIP_LOSS: f64 = 20.0;
 /// The most work of a certificate, in nodes times steps of the solver: some ten seconds. A program that
 /// would exceed it is not started. It is a count, so that every machine proves the same.

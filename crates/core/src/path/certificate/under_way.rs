@@ -12,9 +12,9 @@ use super::solver::ConeSolver;
 use crate::mesh::Progress;
 use crate::path::PathError;
 
-/// A thread computes the minorants of so many triangles at a time.
+/// Number of triangles whose minorants a thread computes at a time.
 const TOGETHER: usize = 16;
-/// So many times as many for each thread are computed in a slice.
+/// Number of such groups per thread that a slice computes.
 const IN_SLICE: usize = 4;
 
 /// A program that is not solved yet, and its triangles.
