@@ -34,7 +34,7 @@ pub enum TreeStep {
 /// The explanation of the queried triangle, and what of it is looked at.
 #[derive(Default)]
 pub struct Explore {
-    key: Option<Key>,
+    key: Option<ExplanationKey>,
     explanation: Option<Explanation>,
     /// The triangle that the user went to, if it is not the queried one.
     place: Option<TreeTriangle>,
@@ -44,7 +44,7 @@ pub struct Explore {
 
 /// The data that an explanation depends on.
 #[derive(Clone, Copy, PartialEq)]
-struct Key {
+struct ExplanationKey {
     point: DVec2,
     document: u64,
     mesh: u64,
@@ -55,8 +55,11 @@ impl Explore {
     pub fn advance(&mut self, session: &Session) {
         let (document, follower) = (session.document(), session.follower());
         let complete = session.queried().filter(|_| follower.is_in_step(document));
-        let key =
-            complete.map(|point| Key { point, document: document.revision(), mesh: follower.revision() });
+        let key = complete.map(|point| ExplanationKey {
+            point,
+            document: document.revision(),
+            mesh: follower.revision(),
+        });
         if key == self.key {
             return;
         }
