@@ -24,8 +24,8 @@ use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::path::{
-    CertificateEnd, CertificateTask, CostDensity, FormulaCost, March, Passage, PathArea, PathCertificate,
-    PathMesh, PathRequest, MeshPlace, Planner, Waypoint,
+    CertificateEnd, CertificateTask, CostDensity, FormulaCost, March, MeshPlace, Passage, PathArea,
+    PathCertificate, PathMesh, PathRequest, Planner, Waypoint,
 };
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, Limits, Mesh, NodeId};

@@ -67,7 +67,7 @@ impl BoundaryFinder {
         self.lost.want(&key, jobs);
         if !self.lost.is_running() && !self.lost.has(&key) {
             let (pieces, extract) = (pieces.clone(), derived.shared_extract());
-            self.lost.start(key, move || MeshBoundary::of_pieces(&extract, pieces).lost().collect(), jobs);
+            self.lost.start(key, move || MeshBoundary::from_pieces(&extract, pieces).lost().collect(), jobs);
         }
         self.lost.take(jobs)
     }

@@ -64,7 +64,7 @@ pub struct Surface<'a> {
 impl HeightFinder {
     /// Returns the heights of the mesh as it is.
     fn heights(&self, document: &Document, follower: &Follower, derivation: &Derivation) -> Heights<'_> {
-        if HeightSource::of(follower.surface().map(|rule| &**rule), &document.settings().layers).is_none() {
+        if HeightSource::new(follower.surface().map(|rule| &**rule), &document.settings().layers).is_none() {
             return Heights::Missing;
         }
         let mesh = MeasuredMesh::now(follower, derivation);
@@ -89,7 +89,7 @@ impl HeightFinder {
         self.found.want(&key, jobs);
         if !self.found.is_running() && !self.found.has(&key) {
             let layers = &document.settings().layers;
-            let Some(source) = HeightSource::of(follower.surface().map(|rule| &**rule), layers) else {
+            let Some(source) = HeightSource::new(follower.surface().map(|rule| &**rule), layers) else {
                 return false;
             };
             self.started += 1;

@@ -117,7 +117,7 @@ fn write_expected(
     meter: &Meter,
 ) -> std::io::Result<WriteOutcome> {
     if let Expected::Contents(expected) = expected {
-        let found = FileStamp::of_file(file, meter)?;
+        let found = FileStamp::from_file(file, meter)?;
         if found.is_some() && found != expected {
             return Ok(WriteOutcome::Kept(Loss::OtherVersion));
         }

@@ -79,11 +79,11 @@ impl ReliefColors {
         let OverlayState { domain, bounds, size, .. } = self.state;
         Some(match self.state.kind {
             FieldOverlay::Depth => {
-                Relief::of_depths(&DepthSurface::of(&self.layers)?, domain, (bounds, size))
+                Relief::from_depths(&DepthSurface::of(&self.layers)?, domain, (bounds, size))
             }
             _ => {
                 let [lowest, highest] = self.heights()?;
-                Relief::of_heights(highest - lowest, domain, (bounds, size))
+                Relief::from_heights(highest - lowest, domain, (bounds, size))
             }
         })
     }

@@ -182,7 +182,7 @@ impl FinishedMesh {
     pub fn explanation(&self, id: TriangleId) -> Explanation {
         let criterion = self.built.criterion(Some(&self.origin.paint));
         let mesh = &self.built.mesh;
-        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.spec.limits)
+        Explanation::new(mesh, TreeTriangle::from_mesh(mesh, id), &criterion, &self.origin.spec.limits)
     }
 
     /// Returns which bisections of the mesh its criterion asks for.

@@ -298,7 +298,7 @@ struct PathOutput {
 
 impl PathOutput {
     fn new(path: &Path) -> Result<Self, Failure> {
-        let format = PathFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
+        let format = PathFormat::from_path(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
         Ok(Self { path: path.to_owned(), format })
     }
 

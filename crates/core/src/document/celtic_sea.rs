@@ -154,7 +154,7 @@ impl Making {
 /// Returns the way into the plane that the program chooses for the sea.
 fn plane_for(sea: &[NamedPolygon]) -> Reprojection {
     let rings = sea.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
-    let extent = GeographicExtent::of_rings(rings).expect("polygons");
+    let extent = GeographicExtent::from_rings(rings).expect("polygons");
     let projection = ProjectionChoice::Automatic.projection(&extent).expect("a small part of the Earth");
     Reprojection { from: Coordinates::Geographic, to: projection }
 }

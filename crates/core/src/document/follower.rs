@@ -115,7 +115,7 @@ impl Follower {
 
     /// Follows a mesh that was made before, with these settings and the paint of the document as it was at
     /// the last call of [`Document::take_repainted`].
-    pub fn of_built(settings: Settings, built: BuiltMesh) -> Self {
+    pub fn from_built(settings: Settings, built: BuiltMesh) -> Self {
         Self {
             shown: Shown::new(settings, built, &[], &PaintLayers::default()),
             state: FollowState::InStep,

@@ -205,8 +205,8 @@ impl Pricer {
         let affected = planned.changed_areas(changes, field, &paint);
         let limits = follower.settings().limits();
         let forecast = match self.counted.take() {
-            Some(memory) => Forecast::of_changes_in(memory, affected, &limits),
-            None => Forecast::of_changes(affected, &limits),
+            Some(memory) => Forecast::for_changes_in(memory, affected, &limits),
+            None => Forecast::for_changes(affected, &limits),
         };
         match forecast {
             None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {

@@ -68,7 +68,7 @@ fn rebuild_is_cheaper(areas: &[ChangedArea], mesh: &Mesh, criterion: &Refinement
     let count = mesh.raw_triangle_count();
     let (mut asked, mut loose, mut changed) = (0, 0, 0);
     for index in (0..count).step_by(count.div_ceil(SAMPLE).max(1)) {
-        let triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
+        let triangle = TreeTriangle::from_mesh(mesh, TriangleId::from_index(index));
         let (corners, level) = (triangle.corners(), triangle.level());
         let [asks, loosens] = concerns(areas, mesh, corners, level);
         let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);

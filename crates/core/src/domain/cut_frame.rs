@@ -81,7 +81,7 @@ pub struct CutFrame {
 
 impl CutFrame {
     /// Returns a rectangle in world coordinates with sides along the axes.
-    pub(super) fn of_world(rect: Rect) -> Self {
+    pub(super) fn from_world(rect: Rect) -> Self {
         Self { coordinates: None, eastward: DVec2::X, rect }
     }
 

@@ -41,7 +41,7 @@ pub struct OutlineOnEarth {
 
 impl OutlineOnEarth {
     /// Returns that of an outline that was projected.
-    pub fn of(reprojection: &Reprojection) -> Self {
+    pub fn from_reprojection(reprojection: &Reprojection) -> Self {
         Self { file: Some(reprojection.from), projection: Some(reprojection.to), frame: None }
     }
 

@@ -261,11 +261,11 @@ impl DomainOnLattice {
         let Some(region) = self.region.as_ref().filter(|_| self.is_fitted()) else { return by_field() };
         match region.side_of(corners, level) {
             Some(true) => by_field(),
-            Some(false) => LevelsWithin::of_one(level, false),
+            Some(false) => LevelsWithin::single(level, false),
             None => {
                 let by_field = || Ok::<_, Infallible>(by_field().exceeds(level) == Some(true));
                 let Ok(exceeds) = self.exceeds_at(corners, level, by_field);
-                LevelsWithin::of_one(level, exceeds)
+                LevelsWithin::single(level, exceeds)
             }
         }
     }

@@ -296,7 +296,7 @@ impl Domain {
     /// Returns about the greatest scale in the bounds; 1 without a projection.
     pub fn greatest_scale(&self) -> f64 {
         let Some(projection) = self.projection else { return 1.0 };
-        let extent = GeographicExtent::of_plane(&projection, self.bounds);
+        let extent = GeographicExtent::from_plane(&projection, self.bounds);
         // The scale has no greatest value but on the rim.
         extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
     }

@@ -43,7 +43,7 @@ impl Region {
     ///
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
-        Self::of_simple(frame, Self::covered(polygons, frame)).on_earth(&OutlineOnEarth::default())
+        Self::from_simple_polygons(frame, Self::covered(polygons, frame)).on_earth(&OutlineOnEarth::default())
     }
 
     /// Returns the polygons of the region that others cover, as [`Self::new`] does.
@@ -76,7 +76,7 @@ impl Region {
     /// Another overlay would move a corner here and there, where edges nearly touch. So valid polygons are
     /// not overlaid.
     pub(super) fn stored(polygons: Vec<Polygon>, frame: Rect) -> Self {
-        let stored = Self::of_simple(frame, polygons);
+        let stored = Self::from_simple_polygons(frame, polygons);
         let grid = Grid::over(&frame);
         let on_grid = |ring: &Ring| grid.contour(ring).iter().zip(ring).all(|(p, q)| grid.world(p) == *q);
         let turned = |rings: &Polygon| {
@@ -93,7 +93,7 @@ impl Region {
         if valid { stored.on_earth(&OutlineOnEarth::default()) } else { Self::new(&stored.polygons, frame) }
     }
 
-    fn of_simple(frame: Rect, polygons: Vec<Polygon>) -> Self {
+    fn from_simple_polygons(frame: Rect, polygons: Vec<Polygon>) -> Self {
         let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum();
         Self { frame, polygons, area, cuts: Vec::new() }
     }
@@ -102,7 +102,7 @@ impl Region {
     /// bounding rectangle; and the one by which its outline was cut before.
     pub(super) fn on_earth(self, on_earth: &OutlineOnEarth) -> Self {
         let bounds = Rect::holding(self.rings().flatten().copied());
-        let chosen = (bounds != Some(self.frame)).then(|| CutFrame::of_world(self.frame));
+        let chosen = (bounds != Some(self.frame)).then(|| CutFrame::from_world(self.frame));
         if on_earth.frame.is_some() {
             let known = CutFrame::of_region(&self, on_earth);
             return Self { cuts: known.into_iter().collect(), ..self };
@@ -253,7 +253,7 @@ impl Region {
         let is_met =
             |cut: &&CutFrame| cut.sides(&rings, size).into_iter().flatten().any(|side| side.is_some());
         let earlier: Vec<CutFrame> = self.cuts.iter().filter(is_met).cloned().collect();
-        let chosen = CutFrame::of_world(frame);
+        let chosen = CutFrame::from_world(frame);
         let is_chosen = reframed.cuts.contains(&chosen) && !earlier.contains(&chosen);
         reframed.cut_by(earlier.into_iter().chain(is_chosen.then_some(chosen)).collect())
     }
@@ -407,7 +407,7 @@ impl Grid {
     }
 
     fn region(&self, shapes: Vec<IntShape>) -> Region {
-        Region::of_simple(self.frame, self.polygons(&shapes))
+        Region::from_simple_polygons(self.frame, self.polygons(&shapes))
     }
 }
 

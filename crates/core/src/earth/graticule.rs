@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn lines_of_a_projection_are_meridians_and_parallels_through_the_area() {
         let corners = [dvec2(-7.0, 47.0), dvec2(0.0, 47.0), dvec2(0.0, 52.0), dvec2(-7.0, 52.0)];
-        let extent = GeographicExtent::of_rings(std::iter::once(&corners[..])).unwrap();
+        let extent = GeographicExtent::from_rings(std::iter::once(&corners[..])).unwrap();
         let projection = ProjectionChoice::Automatic.projection(&extent).unwrap();
         let plane = EarthPlane::Projected(projection);
         let area = Rect::new(dvec2(-238_000.0, 5_219_000.0), dvec2(238_000.0, 5_763_000.0));

@@ -58,11 +58,11 @@ impl OutlineChanges {
     pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
         let outline = OutlineOnLattice::new(mesh.lattice(), region);
         let fitted = FittedBand::whole(mesh, region, &outline, watch);
-        Self::of_fitted(mesh, &outline, &fitted)
+        Self::from_fitted(mesh, &outline, &fitted)
     }
 
     /// Returns the changes of a whole band that was put on an outline.
-    pub(super) fn of_fitted(mesh: &Mesh, outline: &OutlineOnLattice, fitted: &FittedBand) -> Self {
+    pub(super) fn from_fitted(mesh: &Mesh, outline: &OutlineOnLattice, fitted: &FittedBand) -> Self {
         fitted.with_patch(fitted.patch(mesh, outline), outline)
     }
 }

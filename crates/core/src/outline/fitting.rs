@@ -173,7 +173,7 @@ impl Placing {
         }
         for v in pinched {
             let v = v as usize;
-            (sides[v], goals[v], acted[v]) = (OutlineSide::of(band.inside[v]), band.points[v], true);
+            (sides[v], goals[v], acted[v]) = (OutlineSide::from_inside(band.inside[v]), band.points[v], true);
         }
         ControlFlow::Continue(Self { crossings, sides, goals, acted })
     }

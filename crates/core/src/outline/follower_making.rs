@@ -25,7 +25,7 @@ impl FollowerMaking {
         fitted: &FittedBand,
     ) -> Self {
         let follower = OutlineFollower::empty(mesh, domain, outline, fitted);
-        Self { follower, written: Written::of(fitted), done: 0 }
+        Self { follower, written: Written::new(fitted), done: 0 }
     }
 
     /// Takes in a limited number of triangles. Returns the follower at the end.

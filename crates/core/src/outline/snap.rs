@@ -17,7 +17,7 @@ pub(super) enum OutlineSide {
 }
 
 impl OutlineSide {
-    pub(super) fn of(inside: bool) -> Self {
+    pub(super) fn from_inside(inside: bool) -> Self {
         if inside { Self::Inside } else { Self::Outside }
     }
 }
@@ -93,7 +93,7 @@ struct Link {
 }
 
 impl Link {
-    fn of(band: &Band, node: u32, star: &mut Vec<(u32, usize)>) -> Self {
+    fn new(band: &Band, node: u32, star: &mut Vec<(u32, usize)>) -> Self {
         band.triangles.star(node, star);
         let mut link = Self { nodes: Vec::new(), edges: Vec::new(), closed: false };
         for &(t, i) in star.iter() {
@@ -141,11 +141,11 @@ pub(super) fn snapped(
 ) -> (Vec<OutlineSide>, Vec<LatticePoint>) {
     let nodes = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
     let placed = nodes.map_init(Vec::new, |star, v| {
-        let (side, home) = (OutlineSide::of(band.inside[v as usize]), band.points[v as usize]);
+        let (side, home) = (OutlineSide::from_inside(band.inside[v as usize]), band.points[v as usize]);
         if !band.active[v as usize] {
             return (side, home);
         }
-        let link = Link::of(band, v, star);
+        let link = Link::new(band, v, star);
         let goal = if link.is_divided_once(band) {
             nearest_crossing(band, crossings, angles, v, &link)
         } else {

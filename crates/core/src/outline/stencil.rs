@@ -191,7 +191,7 @@ impl NodePlacement {
         let place = |side| sides.iter().position(|&s| s == side).expect("counted");
         let cut = |i: usize| self.cuts[triangle as usize][i % 3];
         match (count(OutlineSide::Inside), count(OutlineSide::Outside)) {
-            (0, 0) => whole(OutlineSide::of(self.keeps[triangle as usize])),
+            (0, 0) => whole(OutlineSide::from_inside(self.keeps[triangle as usize])),
             (_, 0) => whole(OutlineSide::Inside),
             (0, _) => whole(OutlineSide::Outside),
             (1, 1) => {

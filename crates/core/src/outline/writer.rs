@@ -23,7 +23,7 @@ pub(super) struct Written {
 
 impl Written {
     /// None of them.
-    pub(super) fn of(fitted: &FittedBand) -> Self {
+    pub(super) fn new(fitted: &FittedBand) -> Self {
         Self {
             pieces: PiecesByTriangle::new(&fitted.band, &fitted.patchwork),
             acted: fitted.acted(),
@@ -35,7 +35,7 @@ impl Written {
 
 impl<'a> Writer<'a> {
     pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a OutlineOnLattice<'a>) -> Self {
-        Self::going_on(mesh, fitted, outline, Written::of(fitted))
+        Self::going_on(mesh, fitted, outline, Written::new(fitted))
     }
 
     /// Returns a writer that goes on where another one for the same band ended.

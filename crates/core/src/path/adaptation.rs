@@ -42,11 +42,11 @@ impl Adapted {
         let wanted: Vec<(f64, u32)> =
             (0..).zip(known).map(important).filter(|&(importance, _)| importance > 0.0).collect();
         if wanted.is_empty() {
-            let costs = TriangleCosts::of_all(known, 0);
+            let costs = TriangleCosts::from_slice(known, 0);
             return Ok(Self { mesh: base, costs, adaptation: Adaptation::default() });
         }
         let varied: Vec<u32> = wanted.iter().map(|&(_, triangle)| triangle).collect();
-        let (mut mesh, mut costs) = (base.with_room(most), TriangleCosts::of_all(known, most));
+        let (mut mesh, mut costs) = (base.with_room(most), TriangleCosts::from_slice(known, most));
         mesh.bisect(wanted, most, |mesh, triangle| {
             let cost = mesh.cost(triangle, density)?;
             costs.set(triangle, cost);

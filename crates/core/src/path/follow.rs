@@ -92,7 +92,7 @@ impl Planner {
         let before = std::mem::replace(&mut self.costs, costs);
         self.walls = Arc::new(Walls::new(&self.mesh));
         let Self { mesh, costs, .. } = self;
-        let shared = SharedParts::of(&old, mesh);
+        let shared = SharedParts::between(&old, mesh);
         let is_changed = |&t: &u32| {
             let (t, known) = (t as usize, shared.triangles[t as usize] as usize);
             known == NONE as usize
@@ -240,7 +240,7 @@ impl PlannerMove {
 /// Takes the costs that a planner knows of a new mesh, and finds the triangles whose costs it does not.
 fn known_costs(planner: &Planner, adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> FollowStep {
     let base = adaptation.base(&planner.mesh);
-    let shared = SharedParts::of(&base, new);
+    let shared = SharedParts::between(&base, new);
     // Triangles that need not be bisected have no greatest cost, and another extent may ask for it.
     let is_known = coarsest(&base) == coarsest(new);
     let is_unknown = |&(_, &t): &(u32, &u32)| t == NONE || !is_known;

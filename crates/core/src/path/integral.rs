@@ -34,7 +34,7 @@ impl PathFigures {
     /// The upper bound adds up bounds of the cost over pieces. A piece is halved until its bounds differ by
     /// less than `tolerance` times their mean, so that the upper bound is above the integral by that share at
     /// most, except where the cost jumps. It is exact where the cost has one value.
-    pub fn of(points: &[DVec2], density: &dyn CostDensity, tolerance: f64) -> Self {
+    pub fn new(points: &[DVec2], density: &dyn CostDensity, tolerance: f64) -> Self {
         let mut figures = Self::default();
         for pair in points.windows(2) {
             figures.add_piece(pair[0], pair[1], density, tolerance, MOST_HALVINGS);
@@ -46,7 +46,7 @@ impl PathFigures {
 
     /// Goes on to a point: adds the figures of the segment from `last`, which the point takes the place of.
     pub(super) fn go_on(&mut self, last: &mut DVec2, to: DVec2, density: &dyn CostDensity, tolerance: f64) {
-        let Self { cost, upper, length, length_on_ground } = Self::of(&[*last, to], density, tolerance);
+        let Self { cost, upper, length, length_on_ground } = Self::new(&[*last, to], density, tolerance);
         self.cost += cost;
         self.upper += upper;
         self.length += length;
@@ -91,7 +91,7 @@ const MOST_RISK_HALVINGS: u32 = 10;
 impl RiskAlong {
     /// Returns the risk along a polyline, however long its pieces are: where the risk does not count, a path
     /// is straight and has few points.
-    pub fn of(points: &[DVec2], density: &dyn CostDensity) -> Self {
+    pub fn new(points: &[DVec2], density: &dyn CostDensity) -> Self {
         let mut along = Self::default();
         let mut walked = 0.0;
         if let Some(&start) = points.first() {
@@ -260,7 +260,7 @@ mod tests {
         let risk = Layer::stack([LayerKind::risk(Formula::parse("x^2").unwrap())]);
         let risk = RiskField::new(&risk, PaintLayers::blank());
         let cost = FormulaCost { formula: CostFormula::parse("1").unwrap(), risk };
-        let along = RiskAlong::of(&[dvec2(0.0, 0.5), dvec2(1.0, 0.5)], &cost);
+        let along = RiskAlong::new(&[dvec2(0.0, 0.5), dvec2(1.0, 0.5)], &cost);
         assert!((along.integral - 1.0 / 3.0).abs() < 1e-4, "{along:?}");
         assert!((along.highest - 1.0).abs() < 1e-9 && (along.highest_at - 1.0).abs() < 1e-9, "{along:?}");
     }

@@ -235,7 +235,7 @@ impl LegSearch {
     /// Takes a path in place of the solution if it costs less.
     fn take_better(&mut self, planner: &Planner, density: &dyn CostDensity, points: Vec<DVec2>) {
         // Bounds are much work: only for what promises to cost less.
-        if PathFigures::of(&points, density, COMPARED).cost < self.solution.cost {
+        if PathFigures::new(&points, density, COMPARED).cost < self.solution.cost {
             let other = planner.solution(points, density, self.request.tolerance);
             if other.upper < self.solution.upper {
                 self.solution = other;
@@ -297,5 +297,5 @@ impl LegSearch {
 /// Returns what a rough path along a way costs, and the path.
 fn sketch(planner: &Planner, density: &dyn CostDensity, way: &[DVec2]) -> (f64, Vec<DVec2>) {
     let sketch = refine(way, density, &planner.walls, Effort::SKETCH);
-    (PathFigures::of(&sketch, density, COMPARED).cost, sketch)
+    (PathFigures::new(&sketch, density, COMPARED).cost, sketch)
 }

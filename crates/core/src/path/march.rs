@@ -221,7 +221,7 @@ impl March {
             let k = (0..3).find(|&k| corners[k] == number).expect("the row of a node has its triangles");
             // The node may be d of the triangle across, or a or b of this one.
             for obtuse in [mesh.across[t as usize][(k + 1) % 3], t] {
-                let Some(kite) = Kite::of(mesh, obtuse, least) else { continue };
+                let Some(kite) = Kite::new(mesh, obtuse, least) else { continue };
                 let cost = costs[kite.triangles[0] as usize].max(costs[kite.triangles[1] as usize]);
                 for [a, b] in kite.edges.into_iter().filter(|edge| edge.contains(&number)) {
                     let [from_a, from_b, to] = [a, b, kite.apex].map(|n| self.nodes[n as usize]);
@@ -255,7 +255,7 @@ pub(super) struct Kite {
 
 impl Kite {
     /// `None` where the triangle has no obtuse angle, or the one across does not divide it.
-    pub fn of(mesh: &PathMesh, number: u32, least: Passage) -> Option<Self> {
+    pub fn new(mesh: &PathMesh, number: u32, least: Passage) -> Option<Self> {
         let triangle = mesh.triangles.get(number as usize)?;
         let c = usize::from(triangle.obtuse);
         if c == 3 || triangle.passage < least {

@@ -248,7 +248,7 @@ impl Planner {
     /// Returns a polyline that the walls admit, with its figures.
     pub(super) fn solution(&self, points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Solution {
         debug_assert!(self.walls.admit_all(&points), "a path leaves the open triangles: {points:?}");
-        Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::of(points, density, tolerance) }
+        Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::new(points, density, tolerance) }
     }
 
     /// Begins a march from the goal as far as the start. It errs elsewhere than one from the start, and can

@@ -168,7 +168,7 @@ impl MarchEdit<'_> {
             if self.mesh.has_obtuse {
                 let k = (0..3).find(|&k| corners[k] == number).expect("rows have the triangles of a node");
                 let across = self.mesh.across[t as usize][(k + 1) % 3];
-                if let Some(kite) = Kite::of(self.mesh, across, self.least) {
+                if let Some(kite) = Kite::new(self.mesh, across, self.least) {
                     add(kite.apex, across);
                 }
             }
@@ -218,7 +218,7 @@ impl MarchEdit<'_> {
         }
         self.offer(node, value, t);
         if usize::from(triangle.obtuse) == k
-            && let Some(kite) = Kite::of(self.mesh, t, self.least)
+            && let Some(kite) = Kite::new(self.mesh, t, self.least)
         {
             self.offer_through(&kite, t);
         }
@@ -268,7 +268,7 @@ impl MarchEdit<'_> {
                 let k = (0..3).find(|&k| triangle.corners[k] == number).expect("a corner of the triangle");
                 let across = self.mesh.across[t as usize][(k + 1) % 3];
                 for obtuse in [across, t] {
-                    if let Some(kite) = Kite::of(self.mesh, obtuse, self.least) {
+                    if let Some(kite) = Kite::new(self.mesh, obtuse, self.least) {
                         self.offer_through(&kite, obtuse);
                     }
                 }

@@ -64,7 +64,7 @@ fn move_nodes(mesh: &mut PathMesh, seed: u64) {
 /// Returns the triangles across from obtuse angles through which values came.
 fn crossed_by_kites(march: &March, mesh: &PathMesh, costs: &[f64]) -> Vec<u32> {
     let crossed = |(number, node): (u32, &NodeState)| {
-        let kite = Kite::of(mesh, node.from, Passage::Open).filter(|kite| kite.apex == number)?;
+        let kite = Kite::new(mesh, node.from, Passage::Open).filter(|kite| kite.apex == number)?;
         let cost = kite.triangles.map(|t| costs[t as usize]);
         let is_from = |&[a, b]: &[u32; 2]| {
             let [from_a, from_b] = [a, b].map(|n| march.nodes[n as usize]);
@@ -118,7 +118,7 @@ fn a_march_goes_over_to_another_mesh_bit_for_bit() {
                 new_costs[random.usize(..new.triangle_count())] *= [0.3, 3.0][random.usize(..2)];
             }
             let Some(seeds) = seeds(&new) else { break };
-            let shared = SharedParts::of(&known, &new);
+            let shared = SharedParts::between(&known, &new);
             let is_changed = |&t: &u32| {
                 let known = shared.triangles[t as usize] as usize;
                 known_costs.get(known).is_none_or(|&cost| cost != new_costs[t as usize])

@@ -23,7 +23,7 @@ pub(super) struct SharedParts {
 
 impl SharedParts {
     /// Compares two meshes. Those around whose nodes another rectangle lies share nothing.
-    pub fn of(old: &PathMesh, new: &PathMesh) -> Self {
+    pub fn between(old: &PathMesh, new: &PathMesh) -> Self {
         let nodes = shared_nodes(old, new);
         let parts = new.triangles.par_chunks(TOGETHER);
         let triangles: Vec<u32> = parts.flat_map_iter(|part| shared_triangles(old, part, &nodes)).collect();

@@ -51,7 +51,7 @@ impl TriangleCosts {
     }
 
     /// Takes the costs of all triangles, with room for `more` further ones.
-    pub(super) fn of_all(costs: &[TriangleCost], more: usize) -> Self {
+    pub(super) fn from_slice(costs: &[TriangleCost], more: usize) -> Self {
         let [mut least, mut mean] = [(); 2].map(|()| Vec::with_capacity(costs.len() + more));
         least.extend(costs.iter().map(|cost| cost.least));
         mean.extend(costs.iter().map(|cost| cost.mean));
@@ -138,7 +138,7 @@ impl PathMesh {
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn costs(&self, density: &dyn CostDensity) -> Result<TriangleCosts, PathError> {
-        self.all_costs(density).map(|costs| TriangleCosts::of_all(&costs, 0))
+        self.all_costs(density).map(|costs| TriangleCosts::from_slice(&costs, 0))
     }
 
     pub(super) fn all_costs(&self, density: &dyn CostDensity) -> Result<Vec<TriangleCost>, PathError> {

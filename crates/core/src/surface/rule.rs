@@ -61,7 +61,7 @@ impl LayerGoal {
     const NOTHING: Self =
         Self { goal: SurfaceGoal::Within(f64::INFINITY), norm: SurfaceNorm::Largest, error: f64::INFINITY };
 
-    fn of(&Surface { goal, norm, source: _ }: &Surface) -> Self {
+    fn new(&Surface { goal, norm, source: _ }: &Surface) -> Self {
         let error = match (norm, goal) {
             (SurfaceNorm::Largest, SurfaceGoal::Within(error)) => error,
             _ => f64::INFINITY,
@@ -82,7 +82,7 @@ impl SurfaceRule {
     pub fn new(samples: Arc<SurfaceSamples>, stack: &[Layer]) -> Self {
         let surface = |id: LayerId| stack.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
         let asked = samples.layers.iter().map(|layer| match surface(layer.id) {
-            Some(LayerKind::Surface(surface)) => LayerGoal::of(surface),
+            Some(LayerKind::Surface(surface)) => LayerGoal::new(surface),
             _ => LayerGoal::NOTHING,
         });
         let (bisected, summed) = (Arc::default(), Vec::new());
@@ -191,7 +191,7 @@ impl SurfaceRule {
     /// Returns whether a triangle, given by its corners, is bisected for a surface.
     pub fn exceeds_at(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> bool {
         self.is_bisected(corners)
-            || self.layer_exceeded(&SurfaceTriangle::of(corners, lattice, &self.samples)).is_some()
+            || self.layer_exceeded(&SurfaceTriangle::from_samples(corners, lattice, &self.samples)).is_some()
     }
 
     fn is_bisected(&self, corners: [LatticePoint; 3]) -> bool {
@@ -201,7 +201,7 @@ impl SurfaceRule {
     /// Returns why a triangle, given by its corners, is bisected for a surface; `None` where it is not, and
     /// where the surface has no height at a corner.
     pub fn demand_in(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> Option<SurfaceDemand> {
-        let triangle = SurfaceTriangle::of(corners, lattice, &self.samples);
+        let triangle = SurfaceTriangle::from_samples(corners, lattice, &self.samples);
         let heights = triangle.heights?;
         if let Some(exceeded) = self.layer_exceeded(&triangle) {
             return Some(self.demand_of_difference(exceeded, &triangle, heights));
@@ -273,7 +273,7 @@ impl SurfaceRule {
     /// Returns the error of a triangle, given by its corners, by a norm: the largest difference from the
     /// layers with a number of triangles, or its part of the sum of the squares.
     pub(crate) fn error_at(&self, corners: [LatticePoint; 3], lattice: &Lattice, norm: SurfaceNorm) -> f64 {
-        self.error_of_triangle(&SurfaceTriangle::of(corners, lattice, &self.samples), norm)
+        self.error_of_triangle(&SurfaceTriangle::from_samples(corners, lattice, &self.samples), norm)
     }
 
     fn error_of_triangle(&self, triangle: &SurfaceTriangle, norm: SurfaceNorm) -> f64 {

@@ -95,7 +95,7 @@ fn a_certificate_finds_the_better_valley_of_a_path_that_it_cannot_prove() {
         assert!(proved.cost <= 1.02 * best.cost && proved.upper >= certificate.lower(), "{message}");
         let [proof] = &certificate.proofs()[..] else { panic!("one leg") };
         assert!(proof.path == proved.points && proof.upper == proved.upper, "{message}");
-        let figures = PathFigures::of(&proved.points, &cost, 1e-4);
+        let figures = PathFigures::new(&proved.points, &cost, 1e-4);
         assert!((figures.cost - proved.cost).abs() < 1e-3 * proved.cost, "{message}");
     }
 }

@@ -386,7 +386,7 @@ const REMEDY: &str = "If it marks pixels without a value, say so in the file wit
 fn band_metadata(decoder: &mut Decoder<impl Read + Seek>, layout: &Layout) -> Result<BandMetadata, Flaw> {
     let text = decoder.find_tag(Tag::Unknown(GDAL_METADATA))?.and_then(|text| text.into_string().ok());
     Ok(text.map_or_else(BandMetadata::default, |text| {
-        BandMetadata::of_tag(text.trim_end_matches('\0'), layout.band)
+        BandMetadata::from_tag(text.trim_end_matches('\0'), layout.band)
     }))
 }
 

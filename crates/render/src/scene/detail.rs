@@ -232,7 +232,7 @@ mod tests {
                     continue;
                 }
                 let inner = InnerPoint::of(triangle, mesh.raw_nodes());
-                let tree = TreeTriangle::of(&mesh, TriangleId::from_index(index));
+                let tree = TreeTriangle::from_mesh(&mesh, TriangleId::from_index(index));
                 let ancestor = tree.ancestors(mesh.lattice())[level as usize];
                 *ancestors.entry(key(ancestor.corners())).or_insert(0) += 1;
                 let merged = detail.merged(triangle.level(), inner);

@@ -71,7 +71,7 @@ impl Explore {
             let criterion =
                 RefinementCriterion::new(follower.domain(), follower.field(), settings.rule, paint)
                     .with_surface(follower.surface().map(|surface| &**surface));
-            let triangle = TreeTriangle::of(follower.mesh(), id);
+            let triangle = TreeTriangle::from_mesh(follower.mesh(), id);
             Explanation::new(follower.mesh(), triangle, &criterion, &settings.limits())
         });
     }
@@ -158,7 +158,7 @@ impl Explore {
     /// Returns the node that is shown.
     pub fn node(&self, mesh: &Mesh) -> Option<NodeFacts> {
         let at = self.shown()?.corners()[self.corner?];
-        node_at(mesh, at).map(|node| NodeFacts::of(mesh, node))
+        node_at(mesh, at).map(|node| NodeFacts::new(mesh, node))
     }
 }
 

@@ -193,7 +193,7 @@ impl Plots {
             let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
                 .with_surface(surface.as_deref());
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
-            wanted.goes_on().then(|| LevelFigures::of(&mesh, &extract, &criterion, &limits))
+            wanted.goes_on().then(|| LevelFigures::new(&mesh, &extract, &criterion, &limits))
         };
         self.levels.start_wanted(LevelPlotKey::of(session), compute, jobs);
     }

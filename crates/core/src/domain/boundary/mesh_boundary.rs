@@ -48,17 +48,17 @@ impl MeshBoundary {
     /// Returns the boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the
     /// corners of the domain that are near each of them.
     pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
-        Self::of_pieces(extract, BoundaryPieces::of(domain, extract, marks))
+        Self::from_pieces(extract, BoundaryPieces::of(domain, extract, marks))
     }
 
     /// Returns the boundary of a mesh in pieces that follow from the mesh alone: sides of the frame, outer
     /// loops, holes.
-    pub fn of_mesh(extract: &Extract) -> Self {
-        Self::of_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
+    pub fn from_mesh(extract: &Extract) -> Self {
+        Self::from_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
     }
 
     /// Returns the boundary of a mesh in pieces that were found before.
-    pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
+    pub fn from_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
         let edges: Vec<[DVec2; 2]> = edges(extract).collect();
         let candidates = PieceCandidates::new(extract, &pieces);
         let mut piece_of_edge = vec![0; edges.len()];

@@ -46,7 +46,7 @@ impl BoundaryPiece {
     /// ([`BoundaryKind::Open`]), and land elsewhere. A name that was given decides against that if it begins
     /// with `open` or with `land`, in upper or lower case.
     pub fn usual_type(&self) -> BoundaryType {
-        let of_name = if self.is_named { BoundaryType::of_name(&self.name) } else { None };
+        let of_name = if self.is_named { BoundaryType::from_name(&self.name) } else { None };
         let of_kind = if self.kind == BoundaryKind::Open { BoundaryType::Open } else { BoundaryType::Land };
         of_name.unwrap_or(of_kind)
     }

@@ -63,7 +63,7 @@ fn gradient<G: GradientBounds>(
 impl<G: GradientBounds> Enclosure for Varying<G> {
     /// Returns values without derivatives, unless the bounds are one number: other bounds may come from a
     /// jump.
-    fn of_bounds(value: Bounds) -> Self {
+    fn from_bounds(value: Bounds) -> Self {
         let gradient = value.is_one().then_some(G::NONE);
         Self { value, gradient, of_root: G::keep(gradient.filter(|_| value.least >= 0.0)) }
     }
@@ -83,7 +83,7 @@ impl<G: GradientBounds> Enclosure for Varying<G> {
         match op {
             Op::Two(function) => match G::of_two(function) {
                 Some(derivative) => derivative(a, b, value),
-                None => Self::of_bounds(value),
+                None => Self::from_bounds(value),
             },
             _ => Self::with_root(value, of_two(op, &a, &b, value), root_of_two(op, &a, &b)),
         }
@@ -95,7 +95,7 @@ impl<G: GradientBounds> Enclosure for Varying<G> {
     }
 
     fn either(self, other: Self) -> Self {
-        Self::of_bounds(self.value.union(other.value))
+        Self::from_bounds(self.value.union(other.value))
     }
 }
 

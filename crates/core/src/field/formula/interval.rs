@@ -13,7 +13,7 @@ pub(super) fn bounds(program: &Program, rect: &Rect, third: Bounds) -> Bounds {
 }
 
 impl Enclosure for Bounds {
-    fn of_bounds(bounds: Bounds) -> Self {
+    fn from_bounds(bounds: Bounds) -> Self {
         bounds
     }
 

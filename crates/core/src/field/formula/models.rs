@@ -9,8 +9,8 @@ use super::program::Op;
 use crate::field::{Bounds, Quadratic};
 
 impl Enclosure for Quadratic {
-    fn of_bounds(bounds: Bounds) -> Self {
-        Self::of_bounds(bounds)
+    fn from_bounds(bounds: Bounds) -> Self {
+        Self::from_bounds(bounds)
     }
 
     fn bounds(&self) -> Bounds {

@@ -57,7 +57,7 @@ pub(super) fn tanh(_: Bounds, result: Bounds) -> Bounds {
 /// Bounds the derivative of a power with a constant exponent: (aⁿ)′ = n aⁿ⁻¹ a′.
 pub(super) fn power<G: GradientBounds>(a: Varying<G>, n: Varying<G>, value: Bounds) -> Varying<G> {
     if !n.is_constant() {
-        return Varying::of_bounds(value);
+        return Varying::from_bounds(value);
     }
     let less = bounds::power(a.value, Bounds::one(n.value.least - 1.0));
     let by_derivative = a.gradient_times(times(n.value, less));
@@ -82,7 +82,7 @@ const STEEPEST_OF_BELL: f64 = 0.606_530_659_712_634;
 /// d′.
 pub(super) fn gauss<G: GradientBounds>(d: Varying<G>, s: Varying<G>, value: Bounds) -> Varying<G> {
     if !s.is_constant() {
-        return Varying::of_bounds(value);
+        return Varying::from_bounds(value);
     }
     let most = STEEPEST_OF_BELL / s.value.least.abs();
     let factor = times(d.value.over(s.value.squared()).negated(), value);
@@ -95,7 +95,7 @@ pub(super) fn clamp<G: GradientBounds>(v: Varying<G>, lo: Varying<G>, hi: Varyin
 }
 
 pub(super) fn mix<G: GradientBounds>(a: Varying<G>, b: Varying<G>, t: Varying<G>) -> Option<G> {
-    let rest = Varying::two(Op::Subtract, Varying::of_bounds(ONE), t);
+    let rest = Varying::two(Op::Subtract, Varying::from_bounds(ONE), t);
     let [first, second] = [(a, rest), (b, t)].map(|(v, share)| Varying::two(Op::Multiply, v, share));
     Some(first.gradient?.plus(&second.gradient?))
 }

@@ -69,7 +69,7 @@ impl PathCertificate {
         let leg = |(number, ends): (usize, &[usize])| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
             let walls = solution.walls.get(number).into_iter().cloned().collect();
-            let figures = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
+            let figures = Solution::new(path.clone(), &*task.cost, TOLERANCE * task.width);
             let solution = Solution { walls, ..figures };
             let upper = solution.upper;
             let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })

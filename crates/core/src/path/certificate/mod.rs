@@ -263,7 +263,7 @@ impl Certificate {
                 return Ok(Progress::Done);
             }
         };
-        self.under_way = UnderWay::of(work, next);
+        self.under_way = UnderWay::new(work, next);
         Ok(Progress::More)
     }
 
@@ -278,7 +278,7 @@ impl Certificate {
         self.minorants.resize(self.mesh.raw_triangle_count(), None);
         let gain = gain_weights(&space.elements[kept.start], &space.elements[kept.goal], &self.task);
         let next = ProgramStage::Minorants(Vec::with_capacity(space.elements.len()));
-        self.under_way = UnderWay::of(ProgramUnderWay { kept, space, gain }, next);
+        self.under_way = UnderWay::new(ProgramUnderWay { kept, space, gain }, next);
         Ok(Progress::More)
     }
 

@@ -42,7 +42,7 @@ pub(super) enum ProgramStage {
 pub(super) struct UnderWay(Option<Box<(ProgramUnderWay, ProgramStage)>>);
 
 impl UnderWay {
-    pub fn of(work: ProgramUnderWay, next: ProgramStage) -> Self {
+    pub fn new(work: ProgramUnderWay, next: ProgramStage) -> Self {
         Self(Some(Box::new((work, next))))
     }
 

@@ -78,8 +78,8 @@ impl GeoKeys {
     /// Returns what the keys say about heights and depths.
     pub(super) fn vertical(&self) -> VerticalSystem {
         let known = |key| self.short(key).filter(|&code| code != 0 && code < USER_DEFINED);
-        let system = known(VERTICAL_CODE).map_or_else(VerticalSystem::default, VerticalSystem::of_epsg);
-        let unit = known(VERTICAL_UNIT).map_or(ValueUnit::Unstated, ValueUnit::of_epsg);
+        let system = known(VERTICAL_CODE).map_or_else(VerticalSystem::default, VerticalSystem::from_epsg);
+        let unit = known(VERTICAL_UNIT).map_or(ValueUnit::Unstated, ValueUnit::from_epsg);
         VerticalSystem { unit: unit.or(system.unit), ..system }
     }
 
@@ -96,7 +96,7 @@ impl GeoKeys {
         };
         let epsg = self.short(code).filter(|&code| code != 0 && code < USER_DEFINED).map(u32::from);
         let name = self.text(citation).or_else(|| self.text(CITATION));
-        Some(CoordinateSystem::of_keys(kind, epsg, name))
+        Some(CoordinateSystem::from_keys(kind, epsg, name))
     }
 }
 

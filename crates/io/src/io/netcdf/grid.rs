@@ -143,7 +143,7 @@ impl Grid {
     pub(super) fn area(&self, window: &GridWindow, system: Option<&CoordinateSystem>) -> Option<Rect> {
         let Some(plane) = window.plane else { return Some(window.area) };
         if self.is_geographic() {
-            let extent = GeographicExtent::of_plane(&plane.projection, window.area)?;
+            let extent = GeographicExtent::from_plane(&plane.projection, window.area)?;
             let GeographicExtent { west, width, south, north, .. } = extent;
             return Some(Rect::new(dvec2(west, south), dvec2(west + width, north)));
         }
@@ -195,7 +195,7 @@ fn described(variables: &[ReadVariable], grid: &ReadVariable) -> Option<Coordina
         Some(_) => Some(CoordinateKind::Projected),
         None => None,
     };
-    by_text.or_else(|| Some(CoordinateSystem::of_keys(kind?, code, None)))
+    by_text.or_else(|| Some(CoordinateSystem::from_keys(kind?, code, None)))
 }
 
 fn no_grid(variables: &[ReadVariable]) -> Flaw {

@@ -148,7 +148,7 @@ pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp),
     let project = bytes().and_then(|bytes| {
         let project = parse(&bytes, meter)?;
         meter.check()?;
-        Ok((project, FileStamp::of(&bytes)))
+        Ok((project, FileStamp::from_bytes(&bytes)))
     });
     let (project, stamp) = project.map_err(|flaw| flaw.in_file(path))?;
     let document = project.into_document();

@@ -28,7 +28,7 @@ impl TreeTriangle {
     ///
     /// # Panics
     /// Panics when the id is not of this mesh.
-    pub fn of(mesh: &Mesh, id: TriangleId) -> Self {
+    pub fn from_mesh(mesh: &Mesh, id: TriangleId) -> Self {
         let triangle = mesh.triangle(id);
         let ends = triangle.bisection_edge().map(|end| mesh.node(end));
         Self { apex: mesh.node(triangle.apex()), ends, level: triangle.level() }

@@ -124,7 +124,7 @@ impl Census {
 /// Returns the coarse triangles of a mesh, row by row.
 fn coarse_triangles(mesh: &Mesh) -> impl Iterator<Item = TreeTriangle> + '_ {
     // The entry of a coarse triangle is one of its parts.
-    let entry = |number| TreeTriangle::of(mesh, TriangleId::from_index(number));
+    let entry = |number| TreeTriangle::from_mesh(mesh, TriangleId::from_index(number));
     (0..mesh.coarse_triangles()).map(move |number| {
         let mut triangle = entry(number);
         while let Some(parent) = triangle.parent(mesh.lattice()) {

@@ -132,12 +132,12 @@ impl Forecast {
     /// Creates a forecast without counts. `area` contains all points where the rule has changed.
     pub fn new(area: LatticeRect, limits: &Limits) -> Self {
         let area = ChangedArea { rect: area, change: TargetChange::Any, falloff: None };
-        Self::of_changes(vec![area], limits).expect("there is an area")
+        Self::for_changes(vec![area], limits).expect("there is an area")
     }
 
     /// Creates a forecast without counts for areas that contain all points where the rule has changed, with
     /// what is known of the changes; `None` without an area.
-    pub fn of_changes(areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+    pub fn for_changes(areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
         (!areas.is_empty()).then(|| Self {
             level_cap: limits.level_cap(),
             areas,
@@ -157,9 +157,9 @@ impl Forecast {
         })
     }
 
-    /// [`Self::of_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
-    pub fn of_changes_in(memory: Self, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
-        let new = Self::of_changes(areas, limits)?;
+    /// [`Self::for_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
+    pub fn for_changes_in(memory: Self, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+        let new = Self::for_changes(areas, limits)?;
         if memory.coming.capacity().max(memory.restored.capacity()) > MOST_KEPT {
             return Some(new);
         }
@@ -269,7 +269,10 @@ impl Forecast {
     fn look_at(&mut self, mesh: &Mesh, id: TriangleId, area: &ChangedArea, found: &mut Vec<AskedTriangle>) {
         let [asks, loosens] = area.concerns(mesh, mesh.corners(id), mesh.triangle(id).level());
         if asks && self.asked.insert(id.index()) {
-            found.push(AskedTriangle { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+            found.push(AskedTriangle {
+                triangle: TreeTriangle::from_mesh(mesh, id),
+                known: LevelsWithin::UNKNOWN,
+            });
         }
         // Where a triangle around it was bisected, the newest vertex is looked at once that one is restored.
         if loosens
@@ -277,7 +280,7 @@ impl Forecast {
             && self.centres.insert(centre.index())
             && mesh.star_of(id).is_some()
         {
-            let triangle = TreeTriangle::of(mesh, id);
+            let triangle = TreeTriangle::from_mesh(mesh, id);
             self.loose.level_mut(triangle.level()).push(Whole { triangle, restored: 0 });
         }
     }

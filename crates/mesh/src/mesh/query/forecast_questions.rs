@@ -64,7 +64,7 @@ impl Questions for MeshQuestions {
     fn ask<A: RuleAnswers>(&self, asked: &mut AskedTriangle, answers: &mut A) -> Result<(), A::Error> {
         let level = asked.triangle.level();
         let exceeds = level < self.level_cap && answers.exceeds(asked.triangle.corners(), level)?;
-        asked.known = LevelsWithin::of_one(level, exceeds);
+        asked.known = LevelsWithin::single(level, exceeds);
         Ok(())
     }
 }

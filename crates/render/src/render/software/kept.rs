@@ -115,7 +115,7 @@ impl KeptPicture {
         match since {
             Since::Unchanged => {}
             Since::Within(changes) => self.groups.follow(nodes, triangles, &changes.triangles),
-            Since::Replaced => self.groups = TriangleGroups::of(nodes, triangles),
+            Since::Replaced => self.groups = TriangleGroups::new(nodes, triangles),
         }
         match since {
             Since::Unchanged if same_camera => {}
@@ -181,10 +181,10 @@ impl KeptPicture {
         let ShownMesh { mesh, pieces } = shown;
         let camera = camera.on_lattice(mesh.lattice());
         let none = DrawFlags::default();
-        let flags = pieces.map(|pieces| DrawFlags::of_pieces(pieces, mesh.raw_triangle_count()));
+        let flags = pieces.map(|pieces| DrawFlags::from_pieces(pieces, mesh.raw_triangle_count()));
         let of_pieces = pieces.map(|pieces| {
             let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
-            (nodes, triangles, TriangleGroups::of(nodes, triangles), Corners::of(nodes, &camera))
+            (nodes, triangles, TriangleGroups::new(nodes, triangles), Corners::new(nodes, &camera))
         });
         let mut arrays = vec![TriangleArrays {
             nodes: mesh.raw_nodes(),

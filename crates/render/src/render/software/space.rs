@@ -41,7 +41,7 @@ pub fn draw_extract_in_space(
 pub fn draw_surface(shown: ShownSurface, view: &SpaceView, style: &Style) -> Image {
     let ShownSurface { mesh, pieces, heights } = shown;
     let none = DrawFlags::default();
-    let flags = pieces.map(|pieces| DrawFlags::of_pieces(pieces, mesh.raw_triangle_count()));
+    let flags = pieces.map(|pieces| DrawFlags::from_pieces(pieces, mesh.raw_triangle_count()));
     let (nodes, triangles) = (mesh.raw_nodes(), mesh.raw_triangles());
     let mut parts = vec![SurfacePart {
         nodes,

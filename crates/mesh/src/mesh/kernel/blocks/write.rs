@@ -183,7 +183,7 @@ impl Writer {
         let depth = u32::from(self.depths[block]);
         let kind = skeleton.triangles[block].level_and_side();
         self.counts.add_many(kind.finer_by(depth), 1 << depth);
-        let shape = Shape::of(skeleton, TriangleId::from_index(block), depth);
+        let shape = Shape::new(skeleton, TriangleId::from_index(block), depth);
         self.shapes.push(shape);
         self.numbers.push(Numbers { triangles: self.free.triangle - 1, nodes: self.free.node });
         self.free.triangle += (1 << depth) - 1;

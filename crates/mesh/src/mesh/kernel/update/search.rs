@@ -156,7 +156,7 @@ impl Updater {
     fn mark(&mut self, mesh: &Mesh, id: TriangleId) {
         if self.exceeding.insert(id.index()) {
             let level = mesh.triangle(id).level();
-            self.note_open(OpenTriangle { id, level, known: LevelsWithin::of_one(level, true) });
+            self.note_open(OpenTriangle { id, level, known: LevelsWithin::single(level, true) });
         }
     }
 
