@@ -55,7 +55,7 @@ const ROUTE: [DVec2; 2] = [dvec2(103_000.0, 5_402_000.0), dvec2(21_000.0, 5_686_
 const CLEARANCE: f64 = 5_000.0;
 /// The names of the layers, from the bottom to the top.
 const LAYERS: [&str; 4] = ["Long waves", "Slopes", "Along the coasts", "Straits"];
-/// The least and the greatest width of a strait, in metres.
+/// The minimum and the maximum width of a strait, in metres.
 const STRAITS: [f64; 2] = [6000.0, 30_000.0];
 /// Edges of the coasts along which straits are searched in one step.
 const EDGES: usize = 256;

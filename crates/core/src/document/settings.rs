@@ -402,7 +402,7 @@ impl Settings {
     /// [`Self::MAX_TRIANGLES`].
     pub const MAX_MEMORY: usize = 2_600_000_000;
 
-    /// Returns the usual settings for a domain: lengths in proportion to its longer side.
+    /// Returns the default settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {
         let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
         let Transfer { h_min, h_risk, h_max, shape } = usual.transfer;

@@ -47,7 +47,7 @@ enum Upkeep {
     NewMesh,
 }
 
-/// Number of triangles from which a mesh is made again rather than updated where most of it changes. Smaller
+/// Number of triangles from which a mesh is rebuilt rather than updated where most of it changes. Smaller
 /// meshes take a few frames either way, and an update keeps the numbers of triangles.
 const LARGE: usize = 250_000;
 
@@ -165,7 +165,7 @@ impl Shown {
     /// Returns the work that brings the shown mesh up to date with a document, besides the updates that it
     /// still needs.
     ///
-    /// A mesh beyond the wanted budgets is made again: only that finds out whether they can be kept.
+    /// A mesh beyond the wanted budgets is rebuilt: only that shows whether they can be kept.
     pub(super) fn change_to(&self, document: &Document) -> Change {
         let wanted = document.settings();
         let is_same = self.settings == *wanted;
@@ -194,7 +194,7 @@ impl Shown {
         InPlaceUpdate::new(&self.settings, wanted, &self.field, outline, field)
     }
 
-    /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or made again where that is
+    /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or rebuilt where that is
     /// faster for a large mesh.
     pub(super) fn take(&mut self, followed: PreparedUpdate, paint: &PaintLayers) {
         let PreparedUpdate { settings, outline, field } = followed;

@@ -47,7 +47,7 @@ impl CoastLines {
         self.closed.is_empty() && self.crossing.is_empty() && self.loose_ends.is_empty()
     }
 
-    /// Returns the lines through the frame as rings: each goes on along the frame, anticlockwise, from its
+    /// Returns the lines through the frame as rings: each continues along the frame, anticlockwise, from its
     /// end to its start.
     pub fn closed_along_frame(&self, frame: &Rect) -> Vec<Ring> {
         let corners = super::corners(frame);

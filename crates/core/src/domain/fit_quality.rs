@@ -45,8 +45,8 @@ pub struct FitQuality {
 }
 
 impl FitQuality {
-    /// Compares the extract that files get with the region of its domain. Takes time in proportion to the
-    /// triangles, and to n log n of the edges of boundary and outline.
+    /// Compares the extract that files get with the region of its domain. Takes time proportional to the
+    /// triangles, and to n log n for the n edges of boundary and outline.
     pub fn of(extract: &Extract, region: &Region, ground: &Ground) -> Self {
         let mut comparison = FitComparison::new(extract, region, ground);
         loop {

@@ -18,7 +18,7 @@ pub(crate) struct RegionOutline {
     frame: Rect,
 }
 
-/// An edge at a side of the frame is no farther from it than this part of the frame.
+/// An edge along a side of the frame is at most this share of the frame away from it.
 const BESIDE: f64 = 1e-9;
 /// A point at a side is taken to be this part of the frame inside.
 const WITHIN: f64 = 1e-13;

@@ -109,7 +109,7 @@ impl Region {
         }
         let is_alone = chosen.is_none() || *on_earth != OutlineOnEarth::default();
         let found = is_alone.then(|| CutFrame::of_region(&self, on_earth)).flatten();
-        // The bounding rectangle of what a chosen frame leaves was chosen by nobody.
+        // Nobody chose the bounding rectangle of what a chosen frame leaves.
         let found = found.filter(|found| chosen.is_none() || found.coordinates.is_some());
         let cuts = chosen.into_iter().chain(found).collect();
         Self { cuts, ..self }

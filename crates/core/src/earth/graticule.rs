@@ -27,8 +27,8 @@ pub struct GraticuleLine {
     pub points: Vec<DVec2>,
 }
 
-/// Returns the meridians and parallels of round numbers across an area of a plane: from 4 to 11 of each. None
-/// where so few cannot be told apart.
+/// Returns the meridians and parallels of round numbers across an area of a plane: from 4 to 11 of each; none
+/// where the area is too small to distinguish even these.
 pub fn graticule(plane: EarthPlane, area: Rect) -> Vec<GraticuleLine> {
     let Some(extent) = extent(plane, area) else { return Vec::new() };
     let lines = |is_meridian: bool| {
@@ -43,7 +43,7 @@ pub fn graticule(plane: EarthPlane, area: Rect) -> Vec<GraticuleLine> {
     lines(true).chain(lines(false)).collect()
 }
 
-/// Returns the longitudes and latitudes of an area. Longitudes go on beyond 180° where the area does.
+/// Returns the longitudes and latitudes of an area. Longitudes continue beyond 180° where the area does.
 fn extent(plane: EarthPlane, area: Rect) -> Option<Rect> {
     let EarthPlane::Projected(projection) = plane else {
         return Some(Rect::new(area.min.max(dvec2(-720.0, -90.0)), area.max.min(dvec2(720.0, 90.0))));

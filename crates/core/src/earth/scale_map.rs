@@ -121,7 +121,7 @@ impl ScaleMap {
         usize::from(self.bands.of_value(cell.least_in(offset, 1 << bits)))
     }
 
-    /// Returns the bands of the least and the greatest scale in such a square.
+    /// Returns the bands of the minimum and the maximum scale in such a square.
     pub fn bands_in(&self, bits: u32, place: [u32; 2]) -> [usize; 2] {
         let around = self.larger_at(bits, place.map(|place| place >> self.bits.saturating_sub(bits)));
         [self.band_in(bits, place), usize::from(around[1])]

@@ -68,8 +68,7 @@ fn maker(mesh: &Mesh, node: NodeId) -> Option<TreeTriangle> {
     first.parent(lattice)
 }
 
-/// Returns the nodes in the middle of the halves of the triangle and of the one across, as far as they are
-/// there.
+/// Returns the nodes in the middle of the halves of the triangle and of the one across, if they exist.
 fn dependents(mesh: &Mesh, parent: &TreeTriangle) -> Vec<LatticePoint> {
     let pair = [Some(*parent), parent.across(mesh)];
     let halves = pair.iter().flatten().flat_map(TreeTriangle::children);

@@ -102,7 +102,7 @@ pub(super) struct FittedBand {
 }
 
 impl FittedBand {
-    /// Puts the nodes of the whole band on the outline, and tells `watch` of each stage.
+    /// Puts the nodes of the whole band on the outline, and notifies `watch` of each stage.
     pub(super) fn whole(
         mesh: &Mesh,
         region: &RegionOnLattice,
@@ -114,8 +114,8 @@ impl FittedBand {
         Self::new(mesh, band, zone, outline, watch)
     }
 
-    /// Puts the nodes of a band on the outline, and tells `watch` of each stage. Beginning with the retreat,
-    /// only nodes of the `zone` are moved and only edges near them flipped.
+    /// Puts the nodes of a band on the outline, and notifies `watch` of each stage. Beginning with the
+    /// retreat, only nodes of the `zone` are moved and only edges near them flipped.
     pub(super) fn new(
         mesh: &Mesh,
         band: Band,

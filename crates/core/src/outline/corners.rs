@@ -19,8 +19,8 @@ use crate::mesh::Mesh;
 const COT_12: f64 = 4.704_630_109_478_455;
 /// The cosine of 30°, the smallest turn of a sharp corner.
 const COS_30: f64 = 0.866_025_403_784_438_6;
-/// A node that goes to a corner is at most a leg away after it moved to the outline, by half an edge at most.
-/// This many legs allow for a triangle beside it that is one level coarser.
+/// A node that moves to a corner is at most a leg away from it, after it moved to the outline by at most half
+/// an edge. This many legs allow for an adjacent triangle that is one level coarser.
 const CORNER_LEGS: f64 = 2.5;
 /// Smallest ratio of a chord to the length of outline along it for which the outline counts as nearly
 /// straight.

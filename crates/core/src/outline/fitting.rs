@@ -18,8 +18,8 @@ use crate::mesh::{Mesh, MeshPatch};
 /// Number of rounds of flips and moves that improve the angles.
 const ROUNDS: usize = 8;
 
-/// A band on its way to a [`FittedBand`]. Each step is work of about the same size: long coasts take many
-/// milliseconds for it.
+/// A band on its way to a [`FittedBand`]. All steps take about the same time, many milliseconds for long
+/// coasts.
 pub(super) struct Fitting {
     band: Band,
     /// The nodes that are moved, and near which edges are flipped, beginning with the retreat.

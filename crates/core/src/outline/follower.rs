@@ -1,9 +1,9 @@
 //! Keeps the nodes on an outline in step with a mesh that changes where it is.
 //!
-//! Whatever a step of the derivation does at a node depends on the nodes around it, and on what steps did
+//! What a step of the derivation does at a node depends on the nodes around it, and on what earlier steps did
 //! there. Nodes at which something was done or tried (*acting* nodes) form *islands*: those with less than
-//! two triangles between them belong to one. All others stay where the first steps put them, and these look
-//! only a few rings far. So an island is the same whatever happens outside it.
+//! two triangles between them belong to one. All others stay where the first steps put them, and these steps
+//! look only a few rings away. So an island does not depend on anything outside it.
 //!
 //! ```text
 //!   ···o···o···●───●───●···o···o···o···●───●···o···o···       ● acting
@@ -35,7 +35,7 @@ use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::{Changes, DrawnPiece, Mesh, MeshPatch, NodeId, PatchTriangle, Replacement, TriangleId};
 
 /// A place on the lattice as one number: of a node, or three times the centroid of a triangle. No triangle
-/// has the centroid of one that it is a part of.
+/// has the same centroid as one of its ancestors.
 pub(super) type PlaceKey = u64;
 
 pub(super) fn node_place(point: LatticePoint) -> PlaceKey {
@@ -152,8 +152,8 @@ impl OutlineFollower {
         follower
     }
 
-    /// Takes in what changed in the mesh, and returns the entries whose pieces may be others than before, in
-    /// ascending order.
+    /// Takes in what changed in the mesh, and returns the entries whose pieces may have changed, in ascending
+    /// order.
     pub fn update(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<TriangleId> {
         self.update_few(mesh, changes, usize::MAX).expect("there is no limit")
     }

@@ -148,7 +148,7 @@ impl Patchwork {
         Self::in_zone(band, placement, angles, vec![true; band.points.len()])
     }
 
-    /// [`Self::new`], for steps that change only what lies at the nodes of the band in `zone`.
+    /// Does the work of [`Self::new`], for steps that change only what is at the nodes of the band in `zone`.
     pub(super) fn in_zone(
         band: &Band,
         placement: &NodePlacement,

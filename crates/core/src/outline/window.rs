@@ -254,7 +254,7 @@ impl Window {
     }
 }
 
-/// The nodes whose places or triangles may be others than before.
+/// The nodes whose places or triangles may have changed.
 pub(super) struct Reached {
     pub(super) nodes: Vec<NodeId>,
     /// Whether the window is right about all of them.

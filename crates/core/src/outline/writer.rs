@@ -38,7 +38,7 @@ impl<'a> Writer<'a> {
         Self::going_on(mesh, fitted, outline, Written::new(fitted))
     }
 
-    /// Returns a writer that goes on where another one for the same band ended.
+    /// Returns a writer that continues where another one for the same band ended.
     pub(super) fn going_on(
         mesh: &'a Mesh,
         fitted: &'a FittedBand,

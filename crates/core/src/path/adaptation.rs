@@ -72,8 +72,8 @@ impl Adapted {
 /// The difference between a mesh and its base. The base itself would take as much memory as the mesh, and is
 /// needed only after an edit.
 ///
-/// Both are sorted along a curve. So what both have is in the same order in both, and numbers follow from
-/// those of what only one has:
+/// Both are sorted along a curve, so what they share is in the same order in both, and its numbers follow
+/// from the numbers of what only one of them has:
 ///
 /// ```text
 ///   base      0  1  2  3  4  5        2 is bisected
@@ -187,7 +187,7 @@ enum BaseOrigin<'a> {
     Whole(u32),
 }
 
-/// Returns the triangles of a base that are others in a mesh that was bisected, and not yet sorted.
+/// Returns the triangles of a base that differ in a mesh that was bisected, and not yet sorted.
 fn bisected(base: &PathMesh, mesh: &PathMesh, known: &[TriangleCost]) -> Vec<Bisected> {
     let pairs = base.triangles.iter().zip(&mesh.triangles);
     let differs = |(_, (old, new)): &(u32, (&PathTriangle, &PathTriangle))| old.corners != new.corners;
@@ -210,7 +210,7 @@ fn without(left_out: &[u32], count: usize) -> impl Iterator<Item = u32> + '_ {
     (0..count as u32).filter(move |number| left_out.next_if_eq(&number).is_none())
 }
 
-/// Returns what number each of `count` has when those in a sorted list are left out; [`NONE`] for these.
+/// Returns the number of each of `count` items once those in a sorted list are left out; [`NONE`] for these.
 fn numbers_without(left_out: &[u32], count: usize) -> Vec<u32> {
     let mut numbers = vec![NONE; count];
     (0..).zip(without(left_out, count)).for_each(|(new, old)| numbers[old as usize] = new);

@@ -31,14 +31,14 @@ impl Default for PathArea {
     }
 }
 
-/// Distances are taken to be shorter by this share, and by this share of the largest coordinate: rounding
-/// makes none of them longer than it is.
+/// Distances are reduced by this share, and by this share of the largest coordinate, so that rounding never
+/// makes one too long.
 const ROUNDING: [f64; 2] = [1e-12, 1e-14];
 
 impl PathArea {
     /// Returns the area of paths through a domain that stay out of regions, with a clearance in world units:
-    /// in the plane of a projection, in metres on the Earth. Only polygons limit it: a domain given by a
-    /// formula is known by the triangles of its mesh alone.
+    /// in the plane of a projection, in metres on the Earth. Only polygons limit it: of a domain given by a
+    /// formula, only the triangles of its mesh are known.
     ///
     /// # Errors
     /// Fails when the clearance is negative, NaN or infinite.

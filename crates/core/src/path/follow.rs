@@ -30,7 +30,7 @@ struct MeshMove {
 
 impl Planner {
     /// Follows a change of the cost inside rectangles in world units: paths are then those of a new planner.
-    /// Costs are computed again only there, and marches follow.
+    /// Costs are recomputed only there, and marches are updated.
     ///
     /// # Errors
     /// Fails when the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
@@ -62,10 +62,10 @@ impl Planner {
         Ok(())
     }
 
-    /// Goes over to another mesh, as after an edit that refined the mesh in some places, and follows a change
-    /// of the cost inside rectangles in world units: paths are then those of a new planner for that mesh.
-    /// Costs are computed again only there and for triangles that are new, and marches follow through those
-    /// that are not.
+    /// Moves to another mesh, for example after an edit that refined the mesh in some places, and follows a
+    /// change of the cost inside rectangles in world units: paths are then those of a new planner for that
+    /// mesh. Costs are recomputed only there and for new triangles, and marches are updated through the
+    /// others.
     ///
     /// # Errors
     /// Fails as [`Self::update`] does; then nothing changes.
@@ -183,7 +183,7 @@ enum FollowStep {
 }
 
 impl PlannerMove {
-    /// Begins to go over to another mesh, where the cost changed inside rectangles in world units.
+    /// Begins to move to another mesh, where the cost changed inside rectangles in world units.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, areas: &[Rect]) -> Self {
         Self { mesh: mesh.into(), areas: areas.to_vec(), step: FollowStep::Begin }
     }
@@ -237,7 +237,8 @@ impl PlannerMove {
     }
 }
 
-/// Takes the costs that a planner knows of a new mesh, and finds the triangles whose costs it does not.
+/// Takes the costs that a planner already knows for a new mesh, and finds the triangles whose costs it does
+/// not know.
 fn known_costs(planner: &Planner, adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> FollowStep {
     let base = adaptation.base(&planner.mesh);
     let shared = SharedParts::between(&base, new);

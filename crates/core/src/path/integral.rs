@@ -44,7 +44,7 @@ impl PathFigures {
         figures
     }
 
-    /// Goes on to a point: adds the figures of the segment from `last`, which the point takes the place of.
+    /// Continues to a point: adds the figures of the segment from `last`, which the point replaces.
     pub(super) fn go_on(&mut self, last: &mut DVec2, to: DVec2, density: &dyn CostDensity, tolerance: f64) {
         let Self { cost, upper, length, length_on_ground } = Self::new(&[*last, to], density, tolerance);
         self.cost += cost;
@@ -167,8 +167,8 @@ fn within(range: CostRange, value: f64, most: f64) -> CostRange {
 /// Returns the mean of a polynomial of degree 2 near the cost over a segment, and a bound of how much the
 /// mean of the cost differs. `None` where no such polynomial is known.
 ///
-/// It leaves out a term of the third power of the length, and derivatives one of the second: for the same
-/// tolerance the pieces are several times as long.
+/// Its error is of third order in the length, that of derivatives of second order: for the same tolerance the
+/// pieces are several times as long.
 fn mean_of_model(p: DVec2, q: DVec2, rectangle: &Rect, density: &dyn CostDensity) -> Option<(f64, f64)> {
     let sides = rectangle.size();
     let is_thin = sides.min_element() == 0.0;

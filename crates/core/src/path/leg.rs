@@ -1,5 +1,5 @@
-//! The search for the path of one leg, a step at a time: a page has no other thread, and all steps take
-//! longer than one of its frames.
+//! The search for the path of one leg, a step at a time: a page has no other thread, and the whole search
+//! takes longer than one of its frames.
 
 use glam::DVec2;
 
@@ -32,7 +32,7 @@ pub(super) struct LegSearch {
     step: LegStep,
     /// The best path so far.
     solution: Solution,
-    /// Ways along which paths are sought. The first one is that of the march from the start.
+    /// Ways along which paths are searched for. The first one is that of the march from the start.
     ways: Vec<Vec<DVec2>>,
     /// The least cost of a sketch so far.
     least: f64,
@@ -71,7 +71,7 @@ enum LegStep {
     Raise(Box<LowerBound>),
 }
 
-/// A smooth path is made of a way: either may cost less than the solution.
+/// A smooth path was made from a way: either may cost less than the solution.
 #[derive(Clone, Debug)]
 struct WayCandidates {
     way: Vec<DVec2>,
@@ -212,7 +212,7 @@ impl LegSearch {
         Box::new(Refining::new(way, self.request.effort))
     }
 
-    /// Makes a way smooth, tries both, the smooth one first or last, and goes on with a step.
+    /// Smooths a way, tries both, the smooth one first or last, and continues with a step.
     fn smooth(&self, way: Vec<DVec2>, is_smooth_first: bool, next: LegStep) -> LegStep {
         let next = Box::new(next);
         LegStep::Smooth(self.refining(way.clone()), Some(WayCandidates { way, is_smooth_first, next }))
@@ -263,8 +263,8 @@ impl LegSearch {
         next
     }
 
-    /// Begins to look for the shortest way in the plane that is shorter than the solution, if that has one
-    /// cost all along.
+    /// Begins to search for the shortest way in the plane that is shorter than the solution, if the solution
+    /// has the same cost everywhere.
     fn begin_shortest(&self, planner: &Planner, density: &dyn CostDensity) -> Option<CornerSearch> {
         let Self { ends, solution, .. } = self;
         if !is_constant_along(&solution.points, |rectangle| density.range_on_ground(rectangle)) {

@@ -11,10 +11,10 @@ use crate::mesh::Progress;
 
 /// A lower bound of the least cost of all paths between two places.
 ///
-/// Let v be a continuous function that is linear on each triangle with |∇v| ≤ F, the least cost there. Along
-/// any path, v grows by no more than the cost of the path, so v(goal) − v(start) is a bound. If |∇v| ≤ F/λ,
-/// the bound is λ (v(goal) − v(start)). The marches only propose functions v; the bound follows from the
-/// gradients of v alone.
+/// Let v be a subsolution of the eikonal equation: a continuous function that is linear on each triangle with
+/// |∇v| ≤ F, the least cost there. Along any path, v grows by no more than the cost of the path, so v(goal) −
+/// v(start) is a bound. If |∇v| ≤ F/λ, the bound is λ (v(goal) − v(start)). The marches only propose
+/// functions v; the bound follows from the gradients of v alone.
 ///
 /// 1. Paths that can be the best cost `upper` at most. Bounds of the distances from the start and from the
 ///    goal show through which triangles they go. Only there the gradient counts.
@@ -50,7 +50,7 @@ const ROUNDING: f64 = 1e-10;
 
 /// How often v is computed again with lowered costs, at most.
 const MOST_CORRECTIONS: usize = 8;
-/// v is not computed again where that can raise the bound by less than this share of the upper bound.
+/// v is computed again only where that can raise the bound by at least this share of the upper bound.
 const LEAST_GAIN: f64 = 5e-4;
 /// Marches go through triangles that can lie on paths of this many times the upper bound.
 const MARGIN: f64 = 1.05;
@@ -67,7 +67,7 @@ struct Problem<'a> {
 
 impl LowerBound {
     /// Begins a bound, where `upper` is the cost of a path, and the marches went from the start and from the
-    /// goal through all triangles that are not closed. [`Self::raise`] goes on for the same places.
+    /// goal through all triangles that are not closed. [`Self::raise`] continues for the same places.
     pub fn new(
         mesh: &PathMesh,
         costs: &[f64],

@@ -7,8 +7,8 @@ use super::path_mesh::{NONE, PathMesh};
 use super::queue::Queue;
 use crate::mesh::Progress;
 
-/// The distance function of a cost that is constant on each triangle, to first order: fast marching on
-/// triangles \[KimmelSethian1998\].
+/// Solves the eikonal equation |∇u| = F, whose solution u is the least cost from the seeds, to first order
+/// for a cost F that is constant on each triangle: fast marching on triangles \[KimmelSethian1998\].
 ///
 /// A node takes the least over its triangles of
 ///
@@ -21,11 +21,10 @@ use crate::mesh::Progress;
 /// ```
 ///
 /// and of F · |a − c| from each accepted corner a; from the one accepted last only where no x between the
-/// corners is better. Where the angle at c is at most 90°, the condition holds
-/// but for rounding. It makes the result independent of the order of the work: nodes are accepted in the
-/// order of their values, then of their numbers, and the value of each follows from those before it. An
-/// obtuse angle at c is divided by the node d beyond the edge ab: c takes values from the edges ad and db as
-/// well.
+/// corners is better. Where the angle at c is at most 90°, the condition holds but for rounding. It makes the
+/// result independent of the order of the work: nodes are accepted by value, then by number, and the value of
+/// each follows from those accepted before. An obtuse angle at c is divided by the node d beyond the edge ab:
+/// c takes values from the edges ad and db as well.
 ///
 /// The arrays are reused from run to run.
 #[derive(Clone, Debug, Default)]
@@ -78,8 +77,8 @@ impl March {
         }
     }
 
-    /// Goes on with a march that paused, with the same costs, until these nodes are accepted; without any, to
-    /// the end.
+    /// Continues a paused march, with the same costs, until these nodes are accepted; without any, to the
+    /// end.
     pub fn go_on(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, until: Option<[u32; 3]>) {
         _ = self.go_on_for(mesh, costs, least, until, usize::MAX);
     }
@@ -271,9 +270,9 @@ impl Kite {
     }
 }
 
-/// Returns the value at `to` along an edge from an accepted node. It is greater than the value there, also
-/// where the cost of the edge is lost in rounding: so each value comes from smaller ones, or from equal ones
-/// of nodes with smaller numbers, and a descent by them ends.
+/// Returns the value at `to` along an edge from an accepted node. It is greater than the value there, even
+/// where the cost of the edge is lost in rounding. So each value comes from smaller ones, or from equal ones
+/// of nodes with smaller numbers, and a descent along them ends.
 #[inline]
 pub(super) fn from_corner(from: &NodeState, to: &NodeState, cost: f64) -> f64 {
     (from.value + cost * from.at.distance(to.at)).max(from.value.next_up())

@@ -25,7 +25,7 @@ pub(super) fn obstacle(mesh: &PathMesh, places: [MeshPlace; 2], [from, to]: [Way
     PathError::Enclosed { which, from, to }
 }
 
-/// Returns the nodes in parts that hang together by the triangles that count.
+/// Returns the connected components of the nodes, joined by the triangles that count.
 pub(super) fn parts(mesh: &PathMesh, counts: impl Fn(&PathTriangle) -> bool) -> DisjointSets {
     let mut parts = DisjointSets::new(mesh.nodes.len());
     for triangle in mesh.triangles.iter().filter(|triangle| counts(triangle)) {

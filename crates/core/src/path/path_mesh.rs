@@ -26,7 +26,7 @@ pub enum Passage {
     Open,
 }
 
-/// The triangles of a mesh for paths: nodes in world units, who is next to whom, and where paths may go.
+/// The triangles of a mesh for paths: nodes in world units, adjacency, and where paths may go.
 ///
 /// Nodes and triangles are numbered along a curve, so that neighbours mostly lie together in memory.
 #[derive(Clone, Debug, Default)]
@@ -41,7 +41,7 @@ pub struct PathMesh {
     /// Whether the triangles cover the whole rectangle of the mesh, but for what the area leaves out: then no
     /// path through the domain leaves them.
     pub(super) covers_domain: bool,
-    /// Both are made when they are first needed: a mesh that is only bisected further needs neither.
+    /// Both are made on first use: a mesh that is only bisected further needs neither.
     boxes: OnceLock<BoxRuns>,
     rows: OnceLock<NodeRows>,
 }

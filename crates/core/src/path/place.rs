@@ -37,7 +37,7 @@ impl MeshPlace {
 
     /// Returns the corners of its triangle, and those beyond its edges to which a segment leads through two
     /// open triangles, with the costs of the segments: where a march begins. From the corners alone, a march
-    /// would find a place on an edge to be as far as if the way led by one of the ends.
+    /// would measure the distance of a place on an edge by way of one of the ends.
     pub fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> Vec<Seed> {
         let triangle = &mesh.triangles[self.triangle as usize];
         let cost = costs[self.triangle as usize];

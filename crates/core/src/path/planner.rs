@@ -43,8 +43,8 @@ impl PathRequest {
 /// The mesh is bisected further where the cost varies much within a triangle. The path follows the march with
 /// the mean cost of each triangle, and bounds the marches with its least cost.
 ///
-/// The marches from the waypoints are kept: another path between the same places, after the cost changed in
-/// some triangles, computes again only what the change can reach.
+/// The marches from the waypoints are kept: for another path between the same places after the cost changed
+/// in some triangles, only what the change can reach is recomputed.
 #[derive(Clone, Debug)]
 pub struct Planner {
     pub(super) mesh: Arc<PathMesh>,
@@ -251,8 +251,8 @@ impl Planner {
         Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::new(points, density, tolerance) }
     }
 
-    /// Begins a march from the goal as far as the start. It errs elsewhere than one from the start, and can
-    /// find the better one of two ways that cost nearly the same.
+    /// Begins a march from the goal to the start. Its errors differ from those of a march from the start, so
+    /// that it can find the better one of two ways that cost nearly the same.
     pub(super) fn begin_back(&self, goal: MeshPlace) -> March {
         let mut march = March::default();
         march.begin(&self.mesh, &goal.seeds(&self.mesh, &self.costs.mean));

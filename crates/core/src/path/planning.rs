@@ -25,7 +25,7 @@ impl Planning {
         Self { mesh: mesh.into(), costs: Vec::new() }
     }
 
-    /// Takes a step. Returns the planner at the end. The cost density is always the same.
+    /// Takes a step. Returns the planner at the end. Every call must get the same cost density.
     ///
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.

@@ -1,10 +1,10 @@
 //! A queue of nodes by value, then by number.
 
-/// The nodes that wait, smallest value first; of equal values the node with the lower number.
+/// The priority queue of nodes, smallest value first; of equal values, the node with the lower number.
 ///
-/// A march takes values that rise, and puts values a little above the one that it took. So most entries wait
-/// unsorted in buckets of equal width, and are sorted when it is the turn of their bucket. A node is put
-/// again when its value falls: entries with an old value leave with their bucket, before anything is sorted.
+/// A march takes ascending values, and adds values a little above the one that it took. So most entries wait
+/// unsorted in buckets of equal width, each of which is sorted when its turn comes. A node is added again
+/// when its value falls: entries with an old value are dropped with their bucket, before anything is sorted.
 ///
 /// ```text
 ///   sorted, heap        buckets, each after the ones before it        far
@@ -171,7 +171,8 @@ impl Queue {
     }
 }
 
-/// A heap in which each entry has four below it: fewer levels than with two, and the four lie together.
+/// A 4-ary heap: it has fewer levels than a binary one, and the four children of an entry are adjacent in
+/// memory.
 #[derive(Clone, Debug, Default)]
 struct Heap(Vec<QueueEntry>);
 

@@ -26,11 +26,11 @@ impl Effort {
     pub(super) const SKETCH: Self = Self { pieces: &[32], steps: 8 };
 }
 
-/// Pieces of a path with one cost per metre on the Earth. It is hardly bent in the plane, and a person who
-/// follows it wants few points: with this many the cost is off by 10⁻⁶ at most.
+/// Pieces of a path with one cost per metre on the Earth. Such a path hardly bends in the plane, and a person
+/// who follows it wants few points: with this many, the error of the cost is at most 10⁻⁶.
 const MOST_OF_GEODESIC: usize = 128;
 
-/// Returns a path of less cost near a polyline that the walls admit; they admit it, too.
+/// Returns a path of lower cost near a polyline. If the walls admit the polyline, they admit the path, too.
 ///
 /// Its vertices move along their normals only: along the path they would slide together. Each round divides
 /// the pieces and takes some steps of Newton's method with damping; the matrix is tridiagonal, because a
@@ -73,7 +73,7 @@ impl Refining {
         Self { points, effort, stage: RefiningStage::Begin }
     }
 
-    /// Takes a step. Returns the path at the end. Cost and walls are always the same.
+    /// Takes a step. Returns the path at the end. Every call must get the same cost and walls.
     pub fn advance(&mut self, density: &dyn CostDensity, walls: &Walls) -> Option<Vec<DVec2>> {
         let Self { points, effort, stage } = self;
         *stage = match *stage {

@@ -11,10 +11,10 @@ impl March {
     /// end.
     ///
     /// The values are those of a new run, bit for bit. A node whose value came from a changed triangle, or
-    /// from a node whose value changes, loses its value. Then the march goes on from the others, and nodes
-    /// that were accepted may fall. Each that falls takes the values of those that depend on it, so a node
-    /// can be accepted several times: after half as many times as there are nodes, or where more than half of
-    /// the nodes lose their values at once, a new march is faster.
+    /// from a node whose value changes, loses its value. Then the march continues from the others, and the
+    /// values of accepted nodes may fall. A node whose value falls takes away the values of those that depend
+    /// on it, so a node can be accepted several times: once half as many nodes as there are were accepted, or
+    /// where more than half of the nodes lose their values at once, a new march is faster.
     pub fn resolve(
         &mut self,
         mesh: &PathMesh,
@@ -26,9 +26,9 @@ impl March {
         self.go_on_without(mesh, costs, least, seeds, (changed, &[]))
     }
 
-    /// Goes over to a mesh that shares triangles with the one before, and brings the values up to date as
+    /// Moves to a mesh that shares triangles with the previous one, and brings the values up to date as
     /// [`Self::resolve`] does, with the same result. `changed` has the triangles that are new, and those
-    /// whose cost or passage is another one.
+    /// whose cost or passage changed.
     pub(super) fn move_to(
         &mut self,
         [old, mesh]: [&PathMesh; 2],
@@ -53,7 +53,7 @@ impl March {
         self.go_on_without(mesh, costs, least, seeds, (changed, &lost))
     }
 
-    /// Goes on after the values from `changed` triangles, and those of `lost` nodes, ceased to hold.
+    /// Continues after the values from `changed` triangles and those of `lost` nodes became invalid.
     fn go_on_without(
         &mut self,
         mesh: &PathMesh,

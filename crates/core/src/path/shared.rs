@@ -7,7 +7,7 @@ use super::path_mesh::{NONE, PathMesh, PathTriangle, order_on_curve};
 /// Number of triangles that a thread looks at at a time.
 const TOGETHER: usize = 4096;
 
-/// The nodes and triangles of a new mesh that an old one has, too: those whose coordinates are the same.
+/// The nodes and triangles that a new mesh shares with an old one: those with the same coordinates.
 ///
 /// Shared nodes are in the same order in both.
 pub(super) struct SharedParts {

@@ -70,8 +70,8 @@ impl Solution {
         self.lower = self.lower.max(lower).min(self.upper);
     }
 
-    /// Takes what a certificate found out: a cheaper path between the same stops, a lesser upper or a greater
-    /// lower bound. Returns whether the path is another one.
+    /// Takes over the result of a certificate: a cheaper path between the same stops, a smaller upper or a
+    /// larger lower bound. Returns whether the path changed.
     ///
     /// Along jumps of the cost, bounds are far apart, and the path with the least upper bound can be dearer
     /// than this one: then its bound counts, since this path costs less, and this path stays.

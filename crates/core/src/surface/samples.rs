@@ -19,7 +19,7 @@ pub struct SurfaceSamples {
     /// From the top to the bottom.
     pub(super) layers: Vec<LayerSamples>,
     pub(super) count: SampleCount,
-    /// The least and the greatest value of a sample in the domain.
+    /// The minimum and the maximum value of a sample in the domain.
     pub(super) range: Option<[f64; 2]>,
     pub(super) errors: ErrorLayers,
 }
@@ -44,7 +44,7 @@ impl SampleCount {
     }
 }
 
-/// Figures of some samples: how many there are, and the least and the greatest value.
+/// Figures of some samples: how many there are, and their minimum and maximum.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SampleFigures {
     pub(super) count: SampleCount,
@@ -153,7 +153,7 @@ impl SurfaceSamples {
         heights(true).next().or_else(|| heights(false).next()).or_else(|| self.nearest(point))
     }
 
-    /// Returns the least and the greatest value of the samples in the domain; `None` without any.
+    /// Returns the minimum and the maximum of the samples in the domain; `None` without any.
     pub fn height_range(&self) -> Option<[f64; 2]> {
         self.range
     }
@@ -342,8 +342,8 @@ impl SamplePlane {
         SampleRow { row, columns, first, rise: self.gradient.x }
     }
 
-    /// Returns the least and the greatest column of the triangle at a row, in any order and with repeats; NaN
-    /// where it has none.
+    /// Returns the minimum and the maximum column of the triangle at a row, in any order and with repeats;
+    /// NaN where it has none.
     pub(super) fn ends_in(&self, row: f64) -> [f64; 3] {
         let [a, b, c] = self.corners;
         [[a, b], [b, c], [c, a]].map(|[from, to]| {

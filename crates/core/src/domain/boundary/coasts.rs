@@ -91,7 +91,7 @@ fn lengths_of_rings(domain: &Domain) -> Vec<f64> {
 }
 
 impl BoundaryMarks {
-    /// Returns the marks that decide where the coasts are: without names that say nothing about that.
+    /// Returns the marks that decide where the coasts are, without names that do not matter for that.
     pub fn of_coasts(&self) -> Self {
         let decides = |name: &str| BoundaryType::from_name(name).is_some();
         // The first name of a piece counts, so that another one before it matters.

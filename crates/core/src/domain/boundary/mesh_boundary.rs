@@ -45,8 +45,8 @@ pub struct PieceRun {
 }
 
 impl MeshBoundary {
-    /// Returns the boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the
-    /// corners of the domain that are near each of them.
+    /// Returns the boundary of a mesh of a domain. Takes time proportional to the boundary edges and to the
+    /// corners of the domain near each of them.
     pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
         Self::from_pieces(extract, BoundaryPieces::of(domain, extract, marks))
     }
@@ -207,8 +207,9 @@ impl<'a> PieceCandidates<'a> {
         Choice { labels, change }
     }
 
-    /// Beside an open piece, leaves of the pieces near an edge the open one that both its ends are on, or
-    /// none that is open: where water flows across does not depend on the lengths of edges.
+    /// Of the pieces near an edge beside an open piece, keeps only the open one that both ends of the edge
+    /// are on, or else only those that are not open: where water flows across must not depend on the lengths
+    /// of edges.
     fn keep_those_along(
         &self,
         edge: [DVec2; 2],

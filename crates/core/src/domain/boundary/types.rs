@@ -2,7 +2,7 @@
 
 /// What a piece of the boundary is for a solver.
 ///
-/// Land and inflows differ in how a solver treats the flow there. The usual way has no word of its own: the
+/// Land and inflows differ in how a solver treats the flow there. The default way has no word of its own: the
 /// flow across the boundary is set, and the flow along it is free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]

@@ -58,7 +58,7 @@ impl ConicProgram<'_> {
         ConeSolver::new(&objective, &matrix, &limits, &cones, self.settings())
     }
 
-    /// Returns the solution. `None` where the solver failed so badly that there is no answer.
+    /// Returns the solution; `None` where the solver failed without any answer.
     pub(super) fn solution(&self, solver: &ConeSolver) -> Option<ConicSolution> {
         let solution = solver.solution();
         let is_finite = solution.x.iter().all(|value| value.is_finite());

@@ -41,7 +41,7 @@ pub(super) fn lower_at_edges(
         let sum = |side: &EdgeSide| along(side, minorants).iter().sum::<f64>();
         let Some(lower) = sides.min_by(|a, b| sum(a).total_cmp(&sum(b))) else { continue };
         let corners = space.elements[lower.element].flat.corners;
-        // What is next to a node belongs to the node: no path has a length there.
+        // The neighbourhood of a node belongs to the node: no path has a length there.
         let [a, b] = lower.ends.map(|end| corners[end]);
         let cap = (b - a) * (8.0 * inset / a.distance(b)).min(0.25);
         let ends = [a + cap, b - cap];
@@ -84,7 +84,7 @@ fn factor_below(
         return 1.0;
     }
     if let Some(slopes) = cost.derivatives(&strip) {
-        // Without a jump, what holds beside the strip holds in it but for the rise on so short a way.
+        // Without a jump, what holds beside the strip holds in it, up to the rise over its small width.
         let steepest: f64 = slopes.iter().map(|slope| slope.least.abs().max(slope.greatest.abs())).sum();
         let own = (at_a - at_b).abs() / a.distance(b);
         let rounded = 1.0 - 4.0 * inset * (steepest + own) / at_a.min(at_b);

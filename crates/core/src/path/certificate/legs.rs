@@ -16,8 +16,8 @@ const MOST_SEARCHES: usize = 4;
 
 /// Certificates of all legs of a path, from waypoint to waypoint.
 ///
-/// Where a leg ends short of the requested width, a better path may exist: it is sought on the mesh of
-/// [`Self::with_search`], made as fine as the certificate's mesh is, and the certificate goes on with it.
+/// Where a leg ends short of the requested width, a better path may exist: it is searched for on the mesh of
+/// [`Self::with_search`], made as fine as the certificate's mesh, and the certificate continues with it.
 #[derive(Clone)]
 pub struct PathCertificate {
     legs: Vec<Leg>,
@@ -176,7 +176,7 @@ impl PathCertificate {
         Ok(Progress::Done)
     }
 
-    /// Returns whether a leg can be certified further, or a better path be sought for it.
+    /// Returns whether a leg can be certified further, or whether a better path can be searched for.
     fn has_more(&self, leg: &Leg) -> bool {
         match leg.certificate.end() {
             None => true,

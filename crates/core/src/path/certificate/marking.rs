@@ -7,7 +7,7 @@ use super::minorant::Minorant;
 use super::quadratic::QuadraticSpace;
 use super::setup::ReachableTriangles;
 
-/// One round aims at leaving at least this part of what is lost: estimates are too rough to aim farther.
+/// One round aims to leave at least this part of what is lost: estimates are too rough for more.
 const LEAST_LEFT: f64 = 0.12;
 /// One round aims at no more than this part.
 const MOST_LEFT: f64 = 0.7;
@@ -58,7 +58,7 @@ pub(super) fn estimates(
 ///
 /// One bisection divides what a triangle on the path loses by about 2^(3/2): its part of the path is shorter
 /// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)
-/// triangles on it. The fewest triangles result where all lose equally much. Where the cost jumps, a
+/// triangles on it. The number of triangles is least where all lose equally. Where the cost jumps, a
 /// bisection gains less.
 ///
 /// A goal that takes many more triangles is approached in several rounds: estimates improve from round to

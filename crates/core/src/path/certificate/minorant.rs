@@ -60,7 +60,7 @@ impl Minorant {
         }
     }
 
-    /// Returns the affine function that a plane fitted to the samples gives; `None` where it is of no use.
+    /// Returns the affine function from a plane fitted to the samples; `None` where it is useless.
     fn tilted(
         cost: &dyn CostDensity,
         triangle: &FlatTriangle,
@@ -198,8 +198,7 @@ impl<'a> MinorantSearch<'a> {
         Self { cost, triangle, plane, attained, open, looked_at, tolerance }
     }
 
-    /// Returns a lower bound, within `tolerance` of the least value where the allowance of rectangles is
-    /// enough.
+    /// Returns a lower bound, within `tolerance` of the least value if the budget of rectangles suffices.
     fn bound(mut self, tolerance: f64) -> f64 {
         self.tolerance = tolerance;
         let [a, b, c] = self.triangle.corners;
@@ -213,7 +212,7 @@ impl<'a> MinorantSearch<'a> {
                 self.add(quarter, part.bound);
             }
         }
-        // No rectangle has a part of the triangle, so it is flat: nothing is known.
+        // No rectangle contains a part of the triangle, so it is degenerate: nothing is known.
         f64::NEG_INFINITY
     }
 
@@ -271,7 +270,8 @@ impl<'a> MinorantSearch<'a> {
         (!bound.is_nan()).then_some(bound)
     }
 
-    /// Returns the mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
+    /// Returns the bound by the mean value theorem, f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density
+    /// minus the plane.
     fn bound_by_slopes(&self, rectangle: &Rect) -> f64 {
         let Some(slopes) = self.cost.derivatives(rectangle) else { return f64::NEG_INFINITY };
         let middle = rectangle.center();

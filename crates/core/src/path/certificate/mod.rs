@@ -34,8 +34,8 @@
 //! 4. Only triangles wholly outside the domain are left out. The others allow more paths than the domain has:
 //!    the bound is still one. The known path must stay in the domain for its cost to be an upper bound.
 //!
-//! Nothing is taken from the solver on trust: λ and the difference are computed from the values of v, and
-//! rounded down. A program that fails leaves the bound of those before.
+//! The solver is not trusted: λ and the difference are computed from the values of v, and rounded down. If a
+//! program fails, the bound of the previous ones stays.
 
 mod clipped;
 mod dual;
@@ -96,8 +96,8 @@ const MOST_IDLE: usize = 3;
 
 /// Raises the lower bound of what any path costs, program by program.
 ///
-/// The state is kept between two programs, so that it can run on a thread with progress, be told to stop,
-/// and go on when a better path is known.
+/// The state is kept between two programs, so that the work can run on a thread, report progress, be stopped,
+/// and continue when a better path is known.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -207,7 +207,7 @@ impl Certificate {
         Arc::clone(&self.stop)
     }
 
-    /// A better path is known: it becomes the upper bound, and work that had ended may go on.
+    /// Takes a better path, which becomes the upper bound: work that had ended may continue.
     pub fn improve(&mut self, path: Vec<DVec2>, upper: f64) {
         let joins = [path.first(), path.last()] == [self.task.path.first(), self.task.path.last()];
         if joins && upper < self.task.upper && upper > 0.0 {
@@ -327,7 +327,7 @@ impl Certificate {
             return Some(CertificateEnd::Reached);
         }
         self.idle = if width < 0.98 * before { 0 } else { self.idle + 1 };
-        // Even a bound that loses nothing would not reach the width; estimates may be off by a factor of 2.
+        // Even a lossless bound would not reach the width; estimates may be off by a factor of 2.
         let upper_limits = width - 2.0 * lost > self.task.width;
         if self.idle >= MOST_IDLE || (upper_limits && lost < 0.5 * self.task.width) {
             let reason =

@@ -57,7 +57,7 @@ pub struct CertificateTask {
 pub enum CertificateEnd {
     /// The requested width is reached.
     Reached,
-    /// The lower bound has nearly the least cost, as far as estimates tell: only a better path helps.
+    /// By the estimates, the lower bound is nearly the least cost: only a better path helps.
     UpperBoundLimits,
     /// Finer triangles no longer raise the bound.
     NoMoreGain,

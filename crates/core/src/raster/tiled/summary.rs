@@ -30,7 +30,7 @@ impl Summary {
     }
 }
 
-/// Least and greatest column and row of some tiles of depth 0.
+/// Minimum and maximum column and row of some tiles of depth 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TileExtent {
     min: [i32; 2],

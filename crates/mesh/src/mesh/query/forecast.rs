@@ -82,7 +82,7 @@ pub struct Forecast {
     batch: Vec<AskedTriangle>,
 }
 
-/// A triangle that is not bisected, as far as counted. It stands for all around its newest vertex.
+/// A triangle that is not bisected, as counted so far. It stands for all around its newest vertex.
 #[derive(Clone, Copy, Debug)]
 struct Whole {
     triangle: TreeTriangle,
@@ -179,17 +179,18 @@ impl Forecast {
         self
     }
 
-    /// Returns the triangles that would come, as far as counted.
+    /// Returns the number of triangles that would be added, as counted so far.
     pub fn added(&self) -> usize {
         self.added
     }
 
-    /// Returns the triangles that would go, as far as counted. Zero until all that come are counted.
+    /// Returns the number of triangles that would be removed, as counted so far: zero until all added ones
+    /// are counted.
     pub fn removed(&self) -> usize {
         self.removed
     }
 
-    /// Returns how many triangles more there would be in the domain, or fewer below zero, as far as counted.
+    /// Returns by how many triangles the domain would grow, as counted so far; negative if it would shrink.
     pub fn change(&self) -> i64 {
         self.change
     }

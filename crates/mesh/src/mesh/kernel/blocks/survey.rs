@@ -192,7 +192,7 @@ impl Survey {
         }));
     }
 
-    /// Returns how many triangles of the tree need not be bisected, as far as was asked.
+    /// Returns how many triangles of the tree need not be bisected, as far as known.
     pub fn triangles(&self) -> usize {
         self.triangles
     }
