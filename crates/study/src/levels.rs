@@ -85,7 +85,7 @@ impl LevelFigures {
     }
 }
 
-/// Returns the least and greatest h(x), by the level of the coarsest triangle around x.
+/// Returns the minimum and the maximum h(x), by the level of the coarsest triangle around x.
 fn diameters_by_level(extract: &Extract<'_>) -> Vec<Option<[f64; 2]>> {
     let mut nodes = vec![(u32::MAX, 0.0_f64); extract.nodes().len()];
     for triangle in extract.triangles() {

@@ -63,7 +63,7 @@ impl ReliefSampling {
         Self { relief, rows: 0, sign }
     }
 
-    /// Samples so many more rows of the surface of the relief. Returns whether there are more.
+    /// Samples `rows` more rows of the surface of the relief. Returns whether there are more.
     pub fn advance(&mut self, rows: u32, value_at: impl Fn(DVec2) -> Option<f64>) -> Progress {
         let depths = &mut self.relief.depths;
         let ([columns, all], centers) = (depths.size(), depths.pixel_centers());

@@ -229,7 +229,7 @@ impl FinishedMesh {
 /// Reads the files of an input, and builds the mesh.
 ///
 /// # Errors
-/// Fails when a file is of no use, the target is impossible somewhere, or a limit is reached.
+/// Fails when a file cannot be used, the target is impossible somewhere, or a limit is reached.
 pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
     build_from(input.read(terminal)?, terminal)
 }

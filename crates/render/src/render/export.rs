@@ -305,7 +305,7 @@ pub struct SpaceLook {
 
 /// Space around a picture in space, as a share of its shorter side.
 const SPACE_MARGIN: f64 = 0.04;
-/// The least and the largest height of a picture in space, as shares of its width.
+/// The minimum and the maximum height of a picture in space, as shares of its width.
 const SPACE_PROPORTIONS: [f64; 2] = [0.25, 2.0];
 
 impl SpaceLook {

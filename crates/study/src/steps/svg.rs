@@ -12,7 +12,7 @@ const WIDTH: f64 = 1200.0;
 const MARGIN: f64 = 30.0;
 /// Height of a line of the caption.
 const LINE: f64 = 30.0;
-/// Size of the letters of a caption, and the least and most of a number.
+/// Size of the letters of a caption, and the minimum and the maximum size of a number.
 const LETTERS: f64 = 20.0;
 const NUMBERS: [f64; 2] = [6.0, 20.0];
 /// Size of the letters of a name, and the mean width of one.
