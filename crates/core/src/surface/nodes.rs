@@ -59,7 +59,11 @@ impl SurfaceTriangle {
     }
 
     /// Returns a triangle given by its corners on a lattice.
-    pub(super) fn from_samples(corners: [LatticePoint; 3], lattice: &Lattice, samples: &SurfaceSamples) -> Self {
+    pub(super) fn from_samples(
+        corners: [LatticePoint; 3],
+        lattice: &Lattice,
+        samples: &SurfaceSamples,
+    ) -> Self {
         let corners = corners.map(|corner| lattice.world_from_lattice(corner));
         Self::new(corners, corners.map(|corner| samples.height_at(corner)))
     }
