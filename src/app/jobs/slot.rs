@@ -4,8 +4,8 @@ use super::succession::Succession;
 use super::{Job, Jobs, Kind, Output, Taken, Wanted};
 use meshbrush_mesh::mesh::Progress;
 
-/// The value for a key that was computed last, and the one that is being computed. The key holds everything
-/// that the value depends on.
+/// Memoizes the last value computed for a key, and keeps the one that is being computed. The key holds
+/// everything that the value depends on. Keys that change quickly are debounced ([`Succession`]).
 pub struct Slot<K, T> {
     found: Option<(K, T)>,
     running: Option<RunningJob<K, T>>,

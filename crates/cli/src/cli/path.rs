@@ -56,7 +56,8 @@ pub fn run(
     let files = outputs.iter().map(|output| &output.path).chain(&typed.certificate);
     files.into_iter().try_for_each(|file| check_place(file, &inputs))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let ask = |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, formula, saved, plane);
+    let ask =
+        |saved: &PathPlan, plane: Option<&DocumentPlane>| RequestedPath::new(typed, formula, saved, plane);
     let (read, mut asked) = read_and_ask(&input, terminal, ask)?;
     let (projection, unit) = (read.spec.domain.projection, read.unit);
     if let Some(places) = &places {
@@ -114,7 +115,7 @@ fn check_units(typed: &PathArguments, plane: Option<EarthPlane>, unit: LengthUni
 }
 
 /// The requested path: from the options, and from the project or recipe where an option is missing.
-struct Asked {
+struct RequestedPath {
     places: Vec<DVec2>,
     cost: PathCost,
     keep_out: Vec<Mask>,
@@ -122,7 +123,7 @@ struct Asked {
     name: String,
 }
 
-impl Asked {
+impl RequestedPath {
     /// Reads the keep-out regions, in the plane of the domain if it lies in one. `saved` is what the file
     /// says; its places are ignored if the options give some.
     fn new(
@@ -174,8 +175,8 @@ impl Asked {
 fn read_and_ask(
     input: &Input,
     terminal: &mut Terminal,
-    ask: impl FnOnce(&PathPlan, Option<&DocumentPlane>) -> Result<Asked, Failure>,
-) -> Result<(ToMesh, Asked), Failure> {
+    ask: impl FnOnce(&PathPlan, Option<&DocumentPlane>) -> Result<RequestedPath, Failure>,
+) -> Result<(ToMesh, RequestedPath), Failure> {
     if input.project.is_none() && input.recipe.is_none() && input.settings.domain.projection.is_none() {
         let asked = ask(&PathPlan::default(), None)?;
         return Ok((input.read(terminal)?, asked));

@@ -6,7 +6,7 @@ use glam::{DVec2, dvec2};
 use rayon::prelude::*;
 
 use super::Projection;
-use super::squares::SquareValues;
+use super::squares::SquareGrid;
 use crate::geometry::Rect;
 
 /// The inverse scale 1/k over a rectangle, with bounds of its values and of its derivatives.
@@ -33,7 +33,7 @@ pub struct InverseScale {
     /// One more around the corners of all cells, row by row from the lowest.
     values: Vec<f64>,
     /// Bounds in each cell, then in squares of 2 × 2 of them, and so on up to one square.
-    squares: Vec<SquareValues<SquareBounds>>,
+    squares: Vec<SquareGrid<SquareBounds>>,
 }
 
 /// What holds in a square.
@@ -77,7 +77,7 @@ impl InverseScale {
         let mut inverse = Self { origin, side, cells, values, squares: Vec::new() };
         let places = (0..cells[1]).flat_map(|row| (0..cells[0]).map(move |column| [column, row]));
         let bounds = places.map(|cell| inverse.bounds_in(cell)).collect();
-        inverse.squares = SquareValues::new(cells[0], bounds).pyramid(SquareBounds::joined);
+        inverse.squares = SquareGrid::new(cells[0], bounds).pyramid(SquareBounds::joined);
         inverse
     }
 

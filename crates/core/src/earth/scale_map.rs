@@ -3,7 +3,7 @@
 use glam::{DVec2, dvec2};
 
 use super::Projection;
-use super::squares::SquareValues;
+use super::squares::SquareGrid;
 use crate::geometry::{Lattice, LatticePoint, Rect};
 
 /// Lower bounds of the scale k in the dyadic squares of a lattice.
@@ -28,7 +28,7 @@ pub struct ScaleMap {
     cells: Vec<Cell>,
     /// The first and the last band in squares of 2^bits steps, then in those twice as wide, up to one that
     /// holds the lattice.
-    larger: Vec<SquareValues<[u16; 2]>>,
+    larger: Vec<SquareGrid<[u16; 2]>>,
     bands: Bands,
 }
 
@@ -83,12 +83,12 @@ impl ScaleMap {
         map
     }
 
-    fn larger_squares(&self) -> Vec<SquareValues<[u16; 2]>> {
+    fn larger_squares(&self) -> Vec<SquareGrid<[u16; 2]>> {
         let side = 1 << self.bits;
         let of_cell = |cell: &Cell| {
             [self.bands.of_value(cell.least_in([0, 0], side)), self.bands.of_value(cell.greatest)]
         };
-        let cells = SquareValues::new(self.columns, self.cells.iter().map(of_cell).collect());
+        let cells = SquareGrid::new(self.columns, self.cells.iter().map(of_cell).collect());
         cells.pyramid(|a: [u16; 2], b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 

@@ -2,12 +2,12 @@
 
 /// Values in squares, row by row from the lowest.
 #[derive(Debug)]
-pub(super) struct SquareValues<T> {
+pub(super) struct SquareGrid<T> {
     columns: u32,
     values: Vec<T>,
 }
 
-impl<T: Copy> SquareValues<T> {
+impl<T: Copy> SquareGrid<T> {
     /// Returns the values of squares in `columns` columns.
     pub fn new(columns: u32, values: Vec<T>) -> Self {
         Self { columns, values }

@@ -23,6 +23,7 @@ pub struct FrontPoint {
 ///
 /// The length counts 1, and the risk from 0 up to 1,000 by equal factors. Paths that are longer than another
 /// without less risk are left out. Weights find the paths on the convex hull of the front only.
+#[doc(alias = "Pareto front")]
 #[derive(Clone, Debug)]
 pub struct Front {
     mesh: Arc<PathMesh>,

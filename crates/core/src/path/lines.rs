@@ -54,7 +54,7 @@ pub(super) struct LineSearch<'a> {
 
 /// A point of a path, and whether it was moved to a line.
 #[derive(Clone, Copy)]
-struct PathPoint {
+struct ChordPoint {
     at: DVec2,
     is_on_line: bool,
 }
@@ -85,7 +85,7 @@ impl LineSearch<'_> {
     /// Returns whether the cost has close bounds on the chords along lines. It has none on an oblique line,
     /// whose every rectangle reaches beyond it, and then an upper bound of the path is as if there was no
     /// line.
-    fn has_bounds_along(&self, points: &[PathPoint]) -> bool {
+    fn has_bounds_along(&self, points: &[ChordPoint]) -> bool {
         points.windows(2).filter(|pair| pair[0].is_on_line && pair[1].is_on_line).all(|pair| {
             let [p, q] = [pair[0].at, pair[1].at];
             let range = self.density.range(&Rect::spanning(p.midpoint(q), p.lerp(q, 0.5 + SHORT)));
@@ -100,12 +100,12 @@ impl LineSearch<'_> {
 
     /// Returns the points of a path, and between them the nearest places on lines. Where the path comes to a
     /// line or leaves it, so do places before and after: the march tells only roughly where that is best.
-    fn beside_lines(&self, traced: &[DVec2]) -> Vec<PathPoint> {
+    fn beside_lines(&self, traced: &[DVec2]) -> Vec<ChordPoint> {
         let middle = |piece: usize| traced[piece].midpoint(traced[piece + 1]);
         let places: Vec<Option<DVec2>> =
             (0..traced.len() - 1).map(|piece| self.place_on_line(middle(piece))).collect();
-        let mut points = vec![PathPoint { at: traced[0], is_on_line: false }];
-        let on_line = |at: DVec2| PathPoint { at, is_on_line: true };
+        let mut points = vec![ChordPoint { at: traced[0], is_on_line: false }];
+        let on_line = |at: DVec2| ChordPoint { at, is_on_line: true };
         for (piece, place) in places.iter().enumerate() {
             if let Some(at) = *place {
                 let before = piece.checked_sub(1).and_then(|before| places[before]);
@@ -120,7 +120,7 @@ impl LineSearch<'_> {
                     points.extend(self.places_farther(before, at).into_iter().map(on_line));
                 }
             }
-            points.push(PathPoint { at: traced[piece + 1], is_on_line: false });
+            points.push(ChordPoint { at: traced[piece + 1], is_on_line: false });
         }
         points
     }
@@ -174,7 +174,7 @@ impl LineSearch<'_> {
 
     /// Returns the points of the polyline of least cost among those that leave out some of the given points.
     /// `None` where the walls admit none.
-    fn chords(&self, points: &[PathPoint]) -> Option<Vec<PathPoint>> {
+    fn chords(&self, points: &[ChordPoint]) -> Option<Vec<ChordPoint>> {
         let mut best = vec![(f64::INFINITY, 0); points.len()];
         best[0].0 = 0.0;
         for end in 1..points.len() {
@@ -219,7 +219,7 @@ impl LineSearch<'_> {
     }
 
     /// Returns this path with the parts between lines moved to where they cost less.
-    fn refined(&self, points: &[PathPoint], effort: Effort) -> Vec<DVec2> {
+    fn refined(&self, points: &[ChordPoint], effort: Effort) -> Vec<DVec2> {
         let mut refined = vec![points[0].at];
         let mut first = 0;
         for last in 1..points.len() {

@@ -18,6 +18,7 @@ const LENGTH: usize = 16;
 /// level 0    |  box   |  box   |  box   | b|    each over sixteen items
 /// items       0 ... 15 16 .. 31 32 .. 47 48     in the order of their numbers
 /// ```
+#[doc(alias = "BVH")]
 #[derive(Clone, Debug)]
 pub struct BoxRuns {
     count: usize,

@@ -18,6 +18,7 @@ const FANOUT: usize = 8;
 /// level 0    | box | box | box | box | bo|      each over eight items
 /// items       ||||| ||||| ||||| ||||| |||       along the curve
 /// ```
+#[doc(alias = "BVH")]
 #[derive(Clone, Debug)]
 pub struct BoxTree {
     /// The items along the curve.

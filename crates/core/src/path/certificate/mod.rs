@@ -119,6 +119,7 @@ const MOST_IDLE: usize = 3;
 /// assert!(certificate.lower() <= 1.0 && certificate.lower() >= 0.999);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias = "dual certificate")]
 #[derive(Clone)]
 pub struct Certificate {
     task: CertificateTask,

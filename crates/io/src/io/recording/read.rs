@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use super::super::error::{Flaw, PlaceInFile, PlacedFlaw, ReadError};
 use super::super::json::{self, JsonFlaw};
 use super::super::project::{PartNames, Project};
-use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
+use super::saved::{RecordedMesh, SavedHead, SavedStart, SavedStep};
 use super::{FORMAT, MOST_BYTES, VERSION, too_long};
 use crate::io::disk::File;
 use meshbrush_mesh::text::excerpt;
@@ -18,7 +18,7 @@ pub struct RecordingFile {
     pub(super) start: Project,
     /// The rasters of the start.
     pub(super) names: PartNames,
-    pub(super) start_mesh: SavedMesh,
+    pub(super) start_mesh: RecordedMesh,
     pub(super) steps: Vec<SavedStep>,
 }
 

@@ -67,13 +67,14 @@ pub(in crate::mesh) const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 /// 2. *Orientation*: vertices run the way that the triangle says.
 /// 3. *Neighbours*: edge j is shared with neighbour j and with no other triangle; the other triangle says the
 ///    same.
-/// 4. *Compatible*: an edge without a neighbour belongs to one triangle only and has no node in its middle.
+/// 4. *Compatible* (conforming): an edge without a neighbour belongs to one triangle only and has no hanging
+///    node in its middle.
 /// 5. *Graded*: neighbours differ by at most one level.
 /// 6. *Area*: the triangles cover exactly the coarse triangles that were kept.
 /// 7. *Nodes*: every node is a vertex of some triangle, and no two nodes coincide.
 /// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
-/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and class are
-///    counted right.
+/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and side of the
+///    boundary are counted right.
 ///
 /// The tenth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
 #[derive(Debug)]

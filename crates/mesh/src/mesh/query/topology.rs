@@ -4,6 +4,7 @@ use super::forest::Forest;
 use crate::mesh::extract::Extract;
 
 /// The shape of a mesh's domain, as the triangles show it.
+#[doc(alias = "connected components")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Topology {
     /// Nodes that some triangle of the domain has.
