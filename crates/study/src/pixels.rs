@@ -33,8 +33,8 @@ impl<'a> PixelTriangles<'a> {
     }
 
     /// Returns the colour of the triangle at each pixel, as `color` has it for each triangle once, or the one
-    /// for pixels `beyond` the mesh. `None` where `goes_on` says at the beginning of a row that nobody wants
-    /// them any more.
+    /// for pixels `beyond` the mesh. `None` if `goes_on` returns false at the beginning of a row, because the
+    /// result is no longer wanted.
     pub fn colors(
         &self,
         goes_on: &dyn Fn() -> bool,

@@ -18,7 +18,7 @@ const ISOBATHS: f64 = 10.0;
 const RELIEF: f64 = 0.08;
 /// The direction to the light, east, north and up: from the north-west.
 const LIGHT: [f64; 3] = [-0.5, 0.5, FRAC_1_SQRT_2];
-/// How far a point on an edge can seem to be outside, as a share of the height.
+/// By how much rounding can make a point on an edge seem to be outside, as a share of the height.
 const ROUNDING: f64 = 1e-9;
 /// Depth that counts as least in relative differences, in metres.
 const LEAST_DEPTH: f64 = 10.0;

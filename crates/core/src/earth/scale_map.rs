@@ -97,7 +97,7 @@ impl ScaleMap {
         usize::from(self.bands.count)
     }
 
-    /// Returns a scale that is nowhere exceeded, but in corners of the lattice outside a domain.
+    /// Returns an upper bound of the scale, except in corners of the lattice outside a domain.
     pub fn greatest(&self) -> f64 {
         self.scale_of(self.band_count())
     }

@@ -52,8 +52,9 @@ pub(super) fn trace(
     let descent = PathDescent::new(mesh, costs, march, [start, goal])?;
     let (mut stand, mut at, mut height) = (descent.stand_at(goal), goal.point, (f64::INFINITY, NONE));
     let mut points = vec![goal.point];
-    // Each step leads to a lower value, or to a node of equal value and lower number. The steps are
-    // limited all the same: values on edges can be arbitrarily close. Beyond it, nodes alone lead down.
+    // Each step leads to a lower value, or to a node of equal value and lower number. Their number is limited
+    // nevertheless, since values on edges can be arbitrarily close: beyond the limit, the path descends along
+    // nodes alone.
     for _ in 0..8 * mesh.triangles.len() + 8 {
         let step = descent.best(stand, at).filter(|step| step.stand.is_none() || step.height() < height);
         let step = step.or_else(|| descent.down_to_node(stand, at))?;
@@ -128,7 +129,7 @@ impl<'a> PathDescent<'a> {
         if value <= self.farthest { value } else { f64::INFINITY }
     }
 
-    /// Returns where a place stands: on a node or an edge of its triangle, or within.
+    /// Returns where a place is: at a node, on an edge of its triangle, or inside.
     fn stand_at(&self, place: MeshPlace) -> Stand {
         let corners = self.mesh.triangles[place.triangle as usize].corners;
         let shares = place.shares(self.mesh);

@@ -33,8 +33,8 @@ const GAUSS: [[f64; 3]; 3] = {
     [[near, far, far], [far, near, far], [far, far, near]]
 };
 
-/// A triangle is bisected whose diameter, times how much its cost varies as a share of the least cost, 1 at
-/// most, is above this part of the longer side of all triangles.
+/// A triangle is bisected if its diameter times the variation of its cost (as a share of its least cost, at
+/// most 1) exceeds this share of the longer side of all triangles.
 const COARSEST: f64 = 1.0 / 250.0;
 /// Number of triangles whose costs a thread computes at a time.
 const TOGETHER: usize = 1024;
@@ -72,8 +72,8 @@ impl TriangleCosts {
         Self { least: sorted(&self.least), mean: sorted(&self.mean) }
     }
 
-    /// Computes the costs again of the triangles that meet one of the rectangles, and returns those that
-    /// changed, in order.
+    /// Recomputes the costs of the triangles that meet one of the rectangles, and returns those that changed,
+    /// in order.
     ///
     /// # Errors
     /// Fails as [`PathMesh::costs`] does; then the costs are as before.
@@ -121,8 +121,9 @@ impl TriangleCost {
 }
 
 impl PathMesh {
-    /// Returns how much a triangle should be bisected: by how much its diameter is too large for its cost; 0
-    /// where it is not. One through which the rim of the area of paths passes has a jump of the cost.
+    /// Returns how urgently a triangle should be bisected: the factor by which its diameter is too large for
+    /// its cost; 0 where it is not. The cost jumps in triangles through which the rim of the area of paths
+    /// passes.
     pub(super) fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
         let variation = match self.passage(triangle) {
             Passage::Closed => 0.0,

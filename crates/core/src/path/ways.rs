@@ -1,8 +1,8 @@
 //! Other ways between two places than those that marches lead to first.
 //!
-//! A march is exact to first order. Of two ways that cost nearly the same it can prefer the dearer one. But
-//! the marches from both ends together know the other one: across a line on which all points are as far on
-//! the way, each way between hills or walls is a valley of the sum of both distances.
+//! A march is exact to first order. Of two ways that cost nearly the same it can prefer the more expensive
+//! one. But the marches from both ends together know the other one: along a line of points that are equally
+//! far along the way, each way between hills or walls is a valley of the sum of both distances.
 //!
 //! ```text
 //!            ·  ╭── b ──╮           us + ug along the line:  ╲    ╱╲    ╱
@@ -28,7 +28,7 @@ use crate::geometry::nearest_on_segment;
 const PARTS: u32 = 32;
 /// A way counts if marches promise that it costs at most this share more than the best.
 const MOST_EXCESS: f64 = 0.05;
-/// A valley is as deep as this at least, as a share of the cost: less is noise of the marches.
+/// A valley is at least this deep, as a share of the cost: anything less is noise of the marches.
 const LEAST_DEPTH: f64 = 2e-4;
 /// The most ways that are tried.
 const MOST_WAYS: usize = 12;
@@ -120,7 +120,7 @@ impl Ways<'_> {
         found
     }
 
-    /// The distances up to which each march went at least: to the corners around the other place.
+    /// The distances that each march reached at least: those of the corners around the other place.
     fn farthest(&self) -> Distances {
         let [start, goal] = self.ends;
         [(self.marches[0], goal), (self.marches[1], start)].map(|(march, to)| {
@@ -134,8 +134,8 @@ impl Ways<'_> {
         (us < farthest[0] && ug < farthest[1]).then_some([us, ug])
     }
 
-    /// The triangles around the nodes that ways go by which cost little more than the best, in their order,
-    /// with the distances of their corners.
+    /// The triangles around the nodes on ways that cost little more than the best one, in their order, with
+    /// the distances of their corners.
     fn triangles_near_the_best(&self) -> Vec<(u32, [Distances; 3])> {
         let farthest = self.farthest();
         let sum = |node: u32| self.distances(node, farthest).map_or(f64::INFINITY, |[us, ug]| us + ug);

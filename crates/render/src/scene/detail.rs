@@ -2,7 +2,7 @@
 //! from.
 //!
 //! A picture takes the colour of each pixel from one triangle, the one at the centre of the pixel. Where
-//! triangles are smaller than pixels, the others are drawn in vain. So triangles finer than a *detail level*
+//! triangles are smaller than pixels, drawing the others is wasted. So triangles finer than a *detail level*
 //! are merged into their ancestors of that level, each of which has the colour of one triangle within it, its
 //! *representative*. A picture with these is a picture of the same samples, each taken within the length of
 //! the ancestor's bisection edge from where it would be taken otherwise.

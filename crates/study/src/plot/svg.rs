@@ -198,7 +198,7 @@ fn write_series(out: &mut impl Write, plot: &Plot, page: &PlotPage, number: usiz
     writeln!(out, "</g>")
 }
 
-/// A line from the least to the greatest value of each point, with a short stroke at both ends.
+/// A line from the minimum to the maximum of each point, with a short stroke at both ends.
 fn write_error_bars(out: &mut impl Write, plot: &Plot, page: &PlotPage, series: &Series) -> io::Result<()> {
     for ends in series.error_bars() {
         let [Some([x, low]), Some([_, high])] = ends.map(|end| page.place(plot, end)) else { continue };

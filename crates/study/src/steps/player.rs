@@ -7,7 +7,7 @@ use super::recording::{RecordedStep, Recording, ReportRow, RowChange, StepAction
 use super::stages::{StepStage, StepTriangle};
 use crate::geometry::LatticePoint;
 
-/// 𝒯, 𝒩 and S_b at a step of a recording. Going back restores the very same arrays.
+/// 𝒯, 𝒩 and S_b at a step of a recording. Going back restores exactly the same arrays.
 #[derive(Clone, Debug)]
 pub struct StepPlayer {
     recording: Arc<Recording>,

@@ -62,7 +62,7 @@ impl StepRecorder {
         self.mesh.raw_triangle_count()
     }
 
-    /// Goes on until all is done or until `visits` triangles were asked about. `exceeds` is as for
+    /// Continues until done or until `visits` triangles were asked about. `exceeds` is as for
     /// [`Refiner::advance`](crate::mesh::Refiner::advance).
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The picture of a mesh that is edited. After an edit, only the part where the mesh changed is drawn again.
+//! The picture of a mesh that is edited. After an edit, only the part where the mesh changed is redrawn.
 
 use super::corners::Corners;
 use super::damage::{Damage, PxRect};
