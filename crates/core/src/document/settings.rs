@@ -65,7 +65,7 @@ pub enum SettingsError {
     /// The diameter at the boundary is not a length.
     #[error("A diameter of {} at the boundary cannot be met: it must be positive and finite.", Number(*.0))]
     BoundaryDiameter(f64),
-    /// The share of the area is none.
+    /// The share of the area is not between 0 and 1.
     #[error("Parts with a share of {} of the area cannot be kept: a share is between 0 and 1.", Number(*.0))]
     PartShare(f64),
     /// The background picture would have no extent.

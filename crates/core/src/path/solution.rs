@@ -73,8 +73,8 @@ impl Solution {
     /// Takes over the result of a certificate: a cheaper path between the same stops, a smaller upper or a
     /// larger lower bound. Returns whether the path changed.
     ///
-    /// Along jumps of the cost, bounds are far apart, and the path with the least upper bound can be dearer
-    /// than this one: then its bound counts, since this path costs less, and this path stays.
+    /// Along jumps of the cost, bounds are far apart, and the path with the least upper bound can be more
+    /// expensive than this one: then its bound counts, since this path costs less, and this path stays.
     pub fn take(&mut self, proved: Self) -> bool {
         let [lower, upper] = [self.lower.max(proved.lower), self.upper.min(proved.upper)];
         let is_cheaper = proved.upper < self.upper && proved.cost < self.cost;

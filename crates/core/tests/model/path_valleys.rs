@@ -47,7 +47,7 @@ fn certified(planner: &Planner, solution: &Solution, cost: &WeightedCost, width:
 #[test]
 fn no_search_in_many_directions_finds_a_better_valley_on_a_coarse_mesh() {
     let ends = [dvec2(5.0, 10.0), dvec2(95.0, 85.0)];
-    // In the first of them, marches prefer the dearer of two valleys by 2 %.
+    // In the first of them, marches prefer the more expensive of two valleys by 2 %.
     for seed in [913].into_iter().chain(seeds(20)) {
         let mut random = fastrand::Rng::with_seed(seed);
         let cost = random_cost(&mut random);

@@ -95,7 +95,7 @@ impl CertificateTask {
     /// `width` the requested part of it.
     ///
     /// # Errors
-    /// Fails when the rectangle is none.
+    /// Fails when the rectangle is not a proper one.
     pub fn in_rectangle(
         bounds: Rect,
         cost: Arc<dyn CostDensity>,
@@ -111,7 +111,7 @@ impl CertificateTask {
     /// Returns a coarse grid for a certificate.
     ///
     /// # Errors
-    /// Fails when the rectangle is none.
+    /// Fails when the rectangle is not a proper one.
     pub fn lattice_over(bounds: Rect) -> Result<Lattice, GridError> {
         Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
     }
@@ -121,7 +121,7 @@ impl CertificateTask {
     /// pixels. `size` is [columns, rows].
     ///
     /// # Errors
-    /// Fails when the rectangle is none.
+    /// Fails when the rectangle is not a proper one.
     pub fn lattice_along_pixels(bounds: Rect, size: [u32; 2]) -> Result<Lattice, GridError> {
         let mut cells = size[0].max(size[1]).max(1);
         while cells.is_multiple_of(2) && f64::from(cells) > CELLS {
