@@ -52,7 +52,7 @@ impl<F: Fn(LatticePoint) -> bool> RuleAnswers for Diamond<F> {
     fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Infallible> {
         Ok(match corners.map(&self.is_inside) {
             [true, true, true] => LevelsWithin { exceed_below: self.finest, satisfied_from: self.finest },
-            inside => LevelsWithin::of_one(level, level < self.finest && inside.contains(&true)),
+            inside => LevelsWithin::single(level, level < self.finest && inside.contains(&true)),
         })
     }
 }

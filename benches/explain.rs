@@ -62,7 +62,7 @@ fn main() {
         group.bench_function(BenchmarkId::new("Explanation::new", count), |b| {
             b.iter(|| {
                 for &id in &triangles {
-                    let triangle = TreeTriangle::of(&built.mesh, id);
+                    let triangle = TreeTriangle::from_mesh(&built.mesh, id);
                     black_box(Explanation::new(&built.mesh, triangle, &criterion, &limits));
                 }
             });

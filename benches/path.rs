@@ -24,8 +24,8 @@ use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::path::{
-    CertificateEnd, CertificateTask, CostDensity, FormulaCost, March, Passage, PathArea, PathCertificate,
-    PathMesh, PathRequest, Place, Planner, Waypoint,
+    CertificateEnd, CertificateTask, CostDensity, FormulaCost, March, MeshPlace, Passage, PathArea,
+    PathCertificate, PathMesh, PathRequest, Planner, Waypoint,
 };
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, Limits, Mesh, NodeId};
@@ -82,7 +82,7 @@ fn marches(criterion: &mut Criterion, mesh: &Mesh) {
     let [density, edited] = &densities();
     let paths = PathMesh::new(mesh.view());
     let costs = paths.costs(density).expect("the cost is positive").mean;
-    let place = Place::find(&paths, dvec2(-6.0, -6.1), Waypoint::Start).expect("it is in the square");
+    let place = MeshPlace::find(&paths, dvec2(-6.0, -6.1), Waypoint::Start).expect("it is in the square");
     let seeds = place.seeds(&paths, &costs);
     let nodes = paths.node_count();
     let mut group = criterion.benchmark_group("path");

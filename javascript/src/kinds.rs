@@ -169,7 +169,7 @@ fn distance_to(table: Table<'_>) -> Result<DistanceTo, JsError> {
         return Ok(DistanceTo::Shapes { name: String::new(), shapes: shapes_in(table, "to")? });
     }
     let of_word = |word: &String| {
-        let known = BoundaryType::of_word(word);
+        let known = BoundaryType::from_word(word);
         known.ok_or_else(|| error(format_args!("types: \"{word}\" is no type of a piece of the boundary.")))
     };
     let types: Vec<BoundaryType> = table.texts("types").iter().map(of_word).collect::<Result<_, _>>()?;

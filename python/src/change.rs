@@ -71,7 +71,7 @@ fn new_follower(state: &Mutex<State>, watch: &Watch) -> Result<(bool, Follower),
             lock(state).base.take().ok_or("The document was changed by another thread; try again.")?
         }
     };
-    Ok((is_new, Follower::of_built(settings, mesh.finished.built().clone())))
+    Ok((is_new, Follower::from_built(settings, mesh.finished.built().clone())))
 }
 
 fn follow(state: &Mutex<State>, follower: &mut Follower, watch: &Watch) -> Result<(), String> {

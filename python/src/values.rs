@@ -148,8 +148,11 @@ impl GridData<'_> {
         let unstated = described.unwrap_or(FileCoordinates::Unstated { can_be_degrees });
         let coordinates = stated.map_or(unstated, FileCoordinates::Known);
         let attribute = |name: &str| attributes.get(name).map(String::as_str);
-        let facts =
-            ValueFacts::of_attributes(attribute("units"), attribute("positive"), attribute("standard_name"));
+        let facts = ValueFacts::from_attributes(
+            attribute("units"),
+            attribute("positive"),
+            attribute("standard_name"),
+        );
         Ok(GivenGrid { raster: RasterPyramid::new(facts.in_metres(raster)).into(), coordinates, facts })
     }
 }

@@ -101,7 +101,7 @@ pub struct Finished {
 }
 
 /// A file being read or written.
-struct Work {
+struct FileWork {
     id: WorkId,
     job: Job<Outcome>,
     aim: Aim,
@@ -125,7 +125,7 @@ pub struct Row {
 pub struct Background {
     ctx: Context,
     jobs: Jobs,
-    works: Vec<Work>,
+    works: Vec<FileWork>,
     started: u64,
     /// Most threads of each.
     threads: NonZeroUsize,
@@ -181,7 +181,7 @@ impl Background {
     pub fn enter(&mut self, aim: Aim, path: &Path, meter: Meter, job: Job<Outcome>) {
         self.started += 1;
         let (id, name) = (WorkId(self.started), name_of(path));
-        self.works.push(Work { id, job, aim, name, meter, busy: Busy::now() });
+        self.works.push(FileWork { id, job, aim, name, meter, busy: Busy::now() });
     }
 
     /// Removes one finished piece of work from the list, and returns it.
@@ -193,7 +193,7 @@ impl Background {
                 Taken::Value(outcome) => outcome,
                 Taken::Ended => work.failed(),
             };
-            let Work { job, name, .. } = self.works.remove(at);
+            let FileWork { job, name, .. } = self.works.remove(at);
             return Some(Finished { document: job.document(), name, outcome });
         }
         None
@@ -213,7 +213,7 @@ impl Background {
 
     /// Returns the names of files that are being written, without cancelled ones.
     pub fn being_written(&self) -> impl Iterator<Item = &str> {
-        let wanted = |work: &&Work| work.aim != Aim::Read && !work.meter.is_cancelled();
+        let wanted = |work: &&FileWork| work.aim != Aim::Read && !work.meter.is_cancelled();
         self.works.iter().filter(wanted).map(|work| work.name.as_str())
     }
 
@@ -225,14 +225,14 @@ impl Background {
     /// Returns whether this version of the document that is open is being saved.
     pub fn saves_version(&self, version: u64) -> bool {
         let saves =
-            |work: &Work| work.aim == Aim::Save(version) && work.job.document() == self.jobs.document();
+            |work: &FileWork| work.aim == Aim::Save(version) && work.job.document() == self.jobs.document();
         self.works.iter().any(|work| saves(work) && !work.meter.is_cancelled())
     }
 
     /// Returns the progress of work that takes longer than a moment, or of all work.
     pub fn rows(&self, all: bool) -> Vec<Row> {
         let shown = self.works.iter().filter(|work| all || work.busy.is_long());
-        let row = |work: &Work| {
+        let row = |work: &FileWork| {
             let doing = if work.meter.is_cancelled() { "Cancelling" } else { work.aim.doing() };
             Row {
                 id: work.id,
@@ -262,7 +262,7 @@ impl Background {
     }
 }
 
-impl Work {
+impl FileWork {
     /// Returns the outcome of work that panicked.
     fn failed(&self) -> Outcome {
         let (doing, name) = (self.aim.doing(), &self.name);

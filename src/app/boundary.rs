@@ -10,7 +10,7 @@ use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, Domain, MeshBoundary
 
 /// The domain, marks and mesh for which pieces were found.
 #[derive(Clone, Debug, PartialEq)]
-struct Key {
+struct BoundaryKey {
     domain: Domain,
     marks: Arc<BoundaryMarks>,
     /// The revision of the mesh, for a domain that is given by a formula, since its boundary is the boundary
@@ -19,12 +19,12 @@ struct Key {
 }
 
 /// The data for which lost pieces were found: the pieces, and the exported mesh.
-type LostKey = (Key, derivation::Key);
+type LostKey = (BoundaryKey, derivation::Key);
 
 /// Finds the pieces of the boundary.
 #[derive(Default)]
 pub struct BoundaryFinder {
-    pieces: Slot<Key, BoundaryPieces>,
+    pieces: Slot<BoundaryKey, BoundaryPieces>,
     lost: Slot<LostKey, Vec<usize>>,
 }
 
@@ -67,7 +67,7 @@ impl BoundaryFinder {
         self.lost.want(&key, jobs);
         if !self.lost.is_running() && !self.lost.has(&key) {
             let (pieces, extract) = (pieces.clone(), derived.shared_extract());
-            self.lost.start(key, move || MeshBoundary::of_pieces(&extract, pieces).lost().collect(), jobs);
+            self.lost.start(key, move || MeshBoundary::from_pieces(&extract, pieces).lost().collect(), jobs);
         }
         self.lost.take(jobs)
     }
@@ -80,10 +80,10 @@ impl BoundaryFinder {
         }
         let settings = document.settings();
         let (domain, marks) = (settings.domain.clone(), settings.boundary_marks.clone());
-        let key = Key { domain, marks, revision: is_of_mesh.then(|| follower.revision()) };
+        let key = BoundaryKey { domain, marks, revision: is_of_mesh.then(|| follower.revision()) };
         self.pieces.want(&key, jobs);
         if !self.pieces.is_running() && !self.pieces.has(&key) {
-            let Key { domain, marks, revision } = key.clone();
+            let BoundaryKey { domain, marks, revision } = key.clone();
             let mesh = revision.map(|_| follower.shared_mesh());
             let find = move || match mesh {
                 Some(mesh) => BoundaryPieces::of_mesh(&mesh.extract(), &marks),
@@ -95,7 +95,7 @@ impl BoundaryFinder {
     }
 }
 
-fn is_current(key: &Key, document: &Document) -> bool {
+fn is_current(key: &BoundaryKey, document: &Document) -> bool {
     let settings = document.settings();
     key.domain == settings.domain && key.marks == settings.boundary_marks
 }

@@ -35,7 +35,7 @@ const ESTIMATE_SLICE: usize = 64;
 pub struct Brake {
     /// The last mesh that was up to date.
     settled: Option<Settled>,
-    state: State,
+    state: GuardState,
     /// What a document would need whose mesh stopped at a budget.
     stopped: Option<Stopped>,
 }
@@ -53,7 +53,7 @@ struct Settled {
 }
 
 #[derive(Default)]
-enum State {
+enum GuardState {
     #[default]
     Free,
     /// The triangles that the settings need are estimated.
@@ -91,10 +91,10 @@ impl Brake {
         }
         let is_of = |settings: &Settings| settings == wanted;
         match &self.state {
-            State::Agreed { settings, most } if is_of(settings) => return Some(*most),
-            State::Asking { settings, .. } if is_of(settings) => return None,
-            State::Estimating(work) if is_of(&work.0) => return None,
-            _ => self.state = State::Free,
+            GuardState::Agreed { settings, most } if is_of(settings) => return Some(*most),
+            GuardState::Asking { settings, .. } if is_of(settings) => return None,
+            GuardState::Estimating(work) if is_of(&work.0) => return None,
+            _ => self.state = GuardState::Free,
         }
         match &self.settled {
             Some(settled) if settled.settings != *wanted => Some(settled.triangles + FREE_GROWTH),
@@ -103,7 +103,7 @@ impl Brake {
     }
 
     fn settle(&mut self, settings: &Settings, follower: &Follower) {
-        self.state = State::Free;
+        self.state = GuardState::Free;
         let triangles = follower.mesh().raw_triangle_count();
         match &mut self.settled {
             Some(settled) if settled.settings == *settings => settled.triangles = triangles,
@@ -119,25 +119,25 @@ impl Brake {
     /// Notes that the mesh has reached the number of triangles that it may have.
     pub fn stop(&mut self, document: &Document, follower: &Follower, triangles: usize) {
         let settings = document.settings();
-        let was_agreed = matches!(self.state, State::Agreed { .. });
+        let was_agreed = matches!(self.state, GuardState::Agreed { .. });
         let estimate = if was_agreed { None } else { CountEstimate::new(settings, follower) };
         let before = self.settled.as_ref().map_or(0, |settled| settled.triangles);
         self.state = match estimate {
-            Some(estimate) => State::Estimating(Box::new((settings.clone(), estimate))),
+            Some(estimate) => GuardState::Estimating(Box::new((settings.clone(), estimate))),
             // There is none for another coarse grid: ask when there are many.
             None if triangles < before + MANY => {
-                State::Agreed { settings: Box::new(settings.clone()), most: before + MANY }
+                GuardState::Agreed { settings: Box::new(settings.clone()), most: before + MANY }
             }
             None => {
                 let need = Need::MoreThan(triangles as u64);
-                State::Asking { settings: Box::new(settings.clone()), need }
+                GuardState::Asking { settings: Box::new(settings.clone()), need }
             }
         };
     }
 
     /// Estimates for a while what the settings need. Returns whether that goes on.
     pub fn advance(&mut self, document: &Document, follower: &Follower, deadline: Instant) -> bool {
-        let State::Estimating(work) = &mut self.state else { return false };
+        let GuardState::Estimating(work) = &mut self.state else { return false };
         let (settings, estimate) = &mut **work;
         loop {
             if estimate.advance(document, follower, ESTIMATE_SLICE) == Progress::Done {
@@ -150,9 +150,9 @@ impl Brake {
         let (about, settings) = (estimate.triangles(), Box::new(settings.clone()));
         let before = self.settled.as_ref().map_or(0, |settled| settled.triangles);
         self.state = if asks_first(before, about as usize, settings.limits().most_triangles()) {
-            State::Asking { settings, need: Need::About(about) }
+            GuardState::Asking { settings, need: Need::About(about) }
         } else {
-            State::Agreed { settings, most: (2 * about as usize).max(before + MANY) }
+            GuardState::Agreed { settings, most: (2 * about as usize).max(before + MANY) }
         };
         false
     }
@@ -185,21 +185,21 @@ impl Brake {
 
     /// Returns whether the mesh waits for an estimate or an answer.
     pub fn holds(&self) -> bool {
-        matches!(self.state, State::Estimating(_) | State::Asking { .. })
+        matches!(self.state, GuardState::Estimating(_) | GuardState::Asking { .. })
     }
 
     /// Returns whether the mesh of other settings waits.
     fn holds_other(&self, settings: &Settings) -> bool {
         match &self.state {
-            State::Asking { settings: held, .. } => **held != *settings,
-            State::Estimating(work) => work.0 != *settings,
-            State::Free | State::Agreed { .. } => false,
+            GuardState::Asking { settings: held, .. } => **held != *settings,
+            GuardState::Estimating(work) => work.0 != *settings,
+            GuardState::Free | GuardState::Agreed { .. } => false,
         }
     }
 
     /// Returns what the settings need, while that is asked.
     pub fn question(&self) -> Option<Need> {
-        if let State::Asking { need, .. } = self.state { Some(need) } else { None }
+        if let GuardState::Asking { need, .. } = self.state { Some(need) } else { None }
     }
 
     /// Returns how many triangles the last mesh had that was up to date.
@@ -210,8 +210,10 @@ impl Brake {
     /// Lets the mesh follow: a person agreed.
     pub fn agree(&mut self) {
         self.state = match std::mem::take(&mut self.state) {
-            State::Asking { settings, .. } => State::Agreed { settings, most: usize::MAX },
-            State::Estimating(work) => State::Agreed { settings: Box::new(work.0), most: usize::MAX },
+            GuardState::Asking { settings, .. } => GuardState::Agreed { settings, most: usize::MAX },
+            GuardState::Estimating(work) => {
+                GuardState::Agreed { settings: Box::new(work.0), most: usize::MAX }
+            }
             state => state,
         };
     }

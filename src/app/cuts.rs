@@ -52,14 +52,14 @@ impl DrawnEdit {
 
 /// The edits, in order.
 #[derive(Debug)]
-enum Step {
+enum QueuedEdit {
     Edit(DrawnEdit),
     /// The gesture ends: what follows is an undo step of its own.
     EndGesture,
 }
 
 /// An edit on the other thread.
-struct Running {
+struct RunningEdit {
     edit: DrawnEdit,
     /// What is edited.
     before: Drawing,
@@ -69,8 +69,8 @@ struct Running {
 /// Edits that have not reached the document.
 #[derive(Default)]
 pub struct CutQueue {
-    waiting: VecDeque<Step>,
-    running: Option<Running>,
+    waiting: VecDeque<QueuedEdit>,
+    running: Option<RunningEdit>,
 }
 
 impl CutQueue {
@@ -82,8 +82,8 @@ impl CutQueue {
     /// Returns the areas that have not reached the parts that `counts` accepts.
     pub fn areas(&self, counts: impl Fn(DrawnPart) -> bool) -> impl Iterator<Item = &CutShape> {
         let waiting = self.waiting.iter().filter_map(|step| match step {
-            Step::Edit(edit) => Some(edit),
-            Step::EndGesture => None,
+            QueuedEdit::Edit(edit) => Some(edit),
+            QueuedEdit::EndGesture => None,
         });
         let edits = self.running.iter().map(|running| &running.edit).chain(waiting);
         edits.filter_map(move |edit| match edit {
@@ -103,12 +103,12 @@ impl CutQueue {
     }
 
     fn push(&mut self, edit: DrawnEdit) {
-        if let Some(Step::Edit(last)) = self.waiting.back_mut()
+        if let Some(QueuedEdit::Edit(last)) = self.waiting.back_mut()
             && last.join(&edit)
         {
             return;
         }
-        self.waiting.push_back(Step::Edit(edit));
+        self.waiting.push_back(QueuedEdit::Edit(edit));
     }
 
     /// Ends a gesture of the document, after the edits that belong to it.
@@ -116,7 +116,7 @@ impl CutQueue {
         if self.is_idle() {
             document.end_gesture();
         } else {
-            self.waiting.push_back(Step::EndGesture);
+            self.waiting.push_back(QueuedEdit::EndGesture);
         }
     }
 
@@ -125,7 +125,7 @@ impl CutQueue {
     pub fn discard(&mut self, document: &mut Document) -> bool {
         let nothing_else = !self.is_idle() && !document.is_in_gesture();
         let dropped = std::mem::take(self);
-        if dropped.waiting.iter().any(|step| matches!(step, Step::EndGesture)) {
+        if dropped.waiting.iter().any(|step| matches!(step, QueuedEdit::EndGesture)) {
             // The brush was lifted: what is cut already is an undo step of its own.
             document.end_gesture();
         }
@@ -152,8 +152,8 @@ impl CutQueue {
             }
             match self.waiting.pop_front() {
                 None => return Ok(false),
-                Some(Step::EndGesture) => document.end_gesture(),
-                Some(Step::Edit(edit)) => match edit.part().drawing(document.settings()) {
+                Some(QueuedEdit::EndGesture) => document.end_gesture(),
+                Some(QueuedEdit::Edit(edit)) => match edit.part().drawing(document.settings()) {
                     Some(before) => self.start(edit, before, jobs),
                     None => _ = self.discard(document),
                 },
@@ -166,12 +166,12 @@ impl CutQueue {
         let job = jobs.start(Kind::Compute, move |output| {
             output.send(edit_there.apply(&before_there));
         });
-        self.running = Some(Running { edit, before, job });
+        self.running = Some(RunningEdit { edit, before, job });
     }
 
     /// Replaces what was edited. If it is no longer what it was, all edits are dropped.
     fn finish(&mut self, document: &mut Document, edited: Option<Drawing>) -> Result<(), String> {
-        let Some(Running { edit, before, .. }) = self.running.take() else { return Ok(()) };
+        let Some(RunningEdit { edit, before, .. }) = self.running.take() else { return Ok(()) };
         let (part, settings) = (edit.part(), document.settings());
         let is_as_before = part.drawing(settings).as_ref() == Some(&before);
         let edited = edited.filter(|_| is_as_before);

@@ -150,7 +150,7 @@ pub static EXPORT_MESH: FileKind = FileKind {
 };
 
 fn is_one_file(path: &Path) -> bool {
-    ExportFormat::of(path).is_ok_and(|format| format.files(path).len() == 1)
+    ExportFormat::from_path(path).is_ok_and(|format| format.files(path).len() == 1)
 }
 
 #[cfg(test)]

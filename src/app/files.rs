@@ -187,7 +187,7 @@ pub fn export(
     background: &mut Background,
     path: &Path,
 ) -> Result<(), String> {
-    let format = ExportFormat::of(path).map_err(|error| format!("{error}."))?;
+    let format = ExportFormat::from_path(path).map_err(|error| format!("{error}."))?;
     let blocked =
         |file: &PathBuf| Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?));
     if let Some(problem) = format.files(path).iter().find_map(blocked) {
@@ -258,7 +258,7 @@ fn look_in_space(
     layers: &[Layer],
     extract: &Extract,
 ) -> Option<SpaceLook> {
-    let heights = HeightSource::of(surface, layers)?.at_nodes(extract.lattice(), extract.nodes());
+    let heights = HeightSource::new(surface, layers)?.at_nodes(extract.lattice(), extract.nodes());
     Some(space.picture(NodeHeights::new(&heights, &[])?, extract.lattice()))
 }
 

@@ -19,7 +19,7 @@ const HIDDEN_PX: f64 = 1.0;
 
 /// The mesh and the version of the document for which heights were found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Key {
+struct HeightsKey {
     mesh: MeasuredMesh,
     version: u64,
 }
@@ -40,7 +40,7 @@ struct FoundHeights {
 #[derive(Default)]
 pub struct HeightFinder {
     /// The heights; none where no node has any.
-    found: Slot<Key, Option<FoundHeights>>,
+    found: Slot<HeightsKey, Option<FoundHeights>>,
     started: u64,
 }
 
@@ -64,7 +64,7 @@ pub struct Surface<'a> {
 impl HeightFinder {
     /// Returns the heights of the mesh as it is.
     fn heights(&self, document: &Document, follower: &Follower, derivation: &Derivation) -> Heights<'_> {
-        if HeightSource::of(follower.surface().map(|rule| &**rule), &document.settings().layers).is_none() {
+        if HeightSource::new(follower.surface().map(|rule| &**rule), &document.settings().layers).is_none() {
             return Heights::Missing;
         }
         let mesh = MeasuredMesh::now(follower, derivation);
@@ -85,11 +85,11 @@ impl HeightFinder {
         jobs: &Jobs,
     ) -> bool {
         self.found.take_ready(jobs);
-        let key = Key { mesh: MeasuredMesh::now(follower, derivation), version: document.version() };
+        let key = HeightsKey { mesh: MeasuredMesh::now(follower, derivation), version: document.version() };
         self.found.want(&key, jobs);
         if !self.found.is_running() && !self.found.has(&key) {
             let layers = &document.settings().layers;
-            let Some(source) = HeightSource::of(follower.surface().map(|rule| &**rule), layers) else {
+            let Some(source) = HeightSource::new(follower.surface().map(|rule| &**rule), layers) else {
                 return false;
             };
             self.started += 1;

@@ -90,7 +90,7 @@ pub enum Loss {
 }
 
 /// What became of a file that was to be written.
-enum Written {
+enum WriteOutcome {
     Saved(FileStamp),
     /// It stays as it was, because this would be lost.
     Kept(Loss),
@@ -100,10 +100,10 @@ enum Written {
 pub fn write(path: PathBuf, project: Project, version: u64, expected: Expected, background: &mut Background) {
     let (aim, file) = (Aim::Save(version), path.clone());
     background.start(aim, &path, move |meter| match write_expected(&file, &project, expected, meter) {
-        Ok(Written::Saved(stamp)) => {
+        Ok(WriteOutcome::Saved(stamp)) => {
             Outcome::Saved { home: Home { path: file, stamp: Some(stamp) }, version }
         }
-        Ok(Written::Kept(loss)) => Outcome::NotReplaced(file, loss),
+        Ok(WriteOutcome::Kept(loss)) => Outcome::NotReplaced(file, loss),
         Err(_) if meter.is_cancelled() => Outcome::SavingCancelled(cancelled(aim, &file)),
         Err(error) => Outcome::NotSaved(format!("{} could not be saved: {error}.", file.display())),
     });
@@ -115,21 +115,21 @@ fn write_expected(
     project: &Project,
     expected: Expected,
     meter: &Meter,
-) -> std::io::Result<Written> {
+) -> std::io::Result<WriteOutcome> {
     if let Expected::Contents(expected) = expected {
-        let found = FileStamp::of_file(file, meter)?;
+        let found = FileStamp::from_file(file, meter)?;
         if found.is_some() && found != expected {
-            return Ok(Written::Kept(Loss::OtherVersion));
+            return Ok(WriteOutcome::Kept(Loss::OtherVersion));
         }
     }
     if expected != Expected::Anything && io::is_read_only(file) {
-        return Ok(Written::Kept(Loss::ReadOnly));
+        return Ok(WriteOutcome::Kept(Loss::ReadOnly));
     }
     let mut written = None;
     io::write_file_metered(file, meter, |out| {
         let mut out = Stamping::new(out);
         io::project::write_metered(&mut out, project, meter)?;
-        written = Some(Written::Saved(out.stamp()));
+        written = Some(WriteOutcome::Saved(out.stamp()));
         Ok(())
     })?;
     written.ok_or_else(|| std::io::Error::other("nothing was written"))

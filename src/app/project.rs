@@ -267,7 +267,7 @@ impl ProjectFile {
 
     /// Returns the command that exports to a path that was typed. Asks before it replaces other files.
     pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
-        let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
+        let files = ExportFormat::from_path(&path).map_or(Vec::new(), |format| format.files(&path));
         self.ask_to_replace(files, Command::from(FileCommand::Export(path)))
     }
 

@@ -114,7 +114,7 @@ fn the_stated_cause_alone_makes_the_triangle() {
         let mut random = Rng::with_seed(seed);
         for _ in 0..20 {
             let id = TriangleId::from_index(random.usize(..case.mesh.raw_triangle_count()));
-            let triangle = TreeTriangle::of(&case.mesh, id);
+            let triangle = TreeTriangle::from_mesh(&case.mesh, id);
             let cause = case.mesh.cause_of(&triangle, |one| case.exceeds(one));
             match &cause {
                 Cause::Coarse => assert_eq!(triangle.level(), 0),
@@ -155,7 +155,7 @@ fn the_tree_of_a_mesh_is_walked_up_and_down() {
     let mesh = &case.mesh;
     for index in 0..mesh.raw_triangle_count() {
         let id = TriangleId::from_index(index);
-        let triangle = TreeTriangle::of(mesh, id);
+        let triangle = TreeTriangle::from_mesh(mesh, id);
         assert_eq!(mesh.entry_of(&triangle), Some(id));
         assert!(!mesh.is_bisected(&triangle));
         let Some(parent) = triangle.parent(mesh.lattice()) else { continue };

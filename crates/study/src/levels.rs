@@ -38,7 +38,7 @@ impl Bisections {
     pub fn by_level(mesh: &Mesh, criterion: &RefinementCriterion<'_>, limits: &Limits) -> Vec<Self> {
         let mut counts: Vec<Self> = Vec::new();
         for index in 0..mesh.raw_triangle_count() {
-            let mut triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
+            let mut triangle = TreeTriangle::from_mesh(mesh, TriangleId::from_index(index));
             // Each bisected triangle is met once: from that triangle of the mesh which is reached from it
             // through first halves only.
             while let Some(parent) = triangle.parent(mesh.lattice()) {
@@ -64,7 +64,7 @@ impl Bisections {
 impl LevelFigures {
     /// Returns the figures of each level, from 0 on. `extract` is the mesh as files get it; `criterion` and
     /// `limits` are those that `mesh` is up to date with.
-    pub fn of(
+    pub fn new(
         mesh: &Mesh,
         extract: &Extract<'_>,
         criterion: &RefinementCriterion<'_>,
@@ -85,7 +85,7 @@ impl LevelFigures {
     }
 }
 
-/// Returns the least and greatest h(x), by the level of the coarsest triangle around x.
+/// Returns the minimum and the maximum h(x), by the level of the coarsest triangle around x.
 fn diameters_by_level(extract: &Extract<'_>) -> Vec<Option<[f64; 2]>> {
     let mut nodes = vec![(u32::MAX, 0.0_f64); extract.nodes().len()];
     for triangle in extract.triangles() {
@@ -184,7 +184,7 @@ mod tests {
 
     fn figures(built: &BuiltMesh, limits: &Limits) -> Vec<LevelFigures> {
         let criterion = built.criterion(Some(PaintLayers::blank()));
-        LevelFigures::of(&built.mesh, &built.mesh.extract(), &criterion, limits)
+        LevelFigures::new(&built.mesh, &built.mesh.extract(), &criterion, limits)
     }
 
     /// Bisected triangles by level, as [required, forced]: down from the coarse triangles by plain geometry.
@@ -255,7 +255,7 @@ mod tests {
         let mut expected: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
         for (node, _) in mesh.nodes() {
             let level = mesh.triangles_around(node).map(|id| mesh.triangle(id).level()).min().unwrap();
-            let h = NodeFacts::of(mesh, node).diameter;
+            let h = NodeFacts::new(mesh, node).diameter;
             let known = expected.entry(level).or_insert([h, h]);
             *known = [known[0].min(h), known[1].max(h)];
         }

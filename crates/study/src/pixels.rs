@@ -33,8 +33,8 @@ impl<'a> PixelTriangles<'a> {
     }
 
     /// Returns the colour of the triangle at each pixel, as `color` has it for each triangle once, or the one
-    /// for pixels `beyond` the mesh. `None` where `goes_on` says at the beginning of a row that nobody wants
-    /// them any more.
+    /// for pixels `beyond` the mesh. `None` if `goes_on` returns false at the beginning of a row, because the
+    /// result is no longer wanted.
     pub fn colors(
         &self,
         goes_on: &dyn Fn() -> bool,
@@ -71,7 +71,7 @@ impl<'a> PixelTriangles<'a> {
 
     /// Returns whether a triangle is there for compatibility only: its parent does not exceed its target.
     pub fn is_forced(&self, id: TriangleId, criterion: &RefinementCriterion<'_>, limits: &Limits) -> bool {
-        let parent = TreeTriangle::of(self.mesh, id).parent(self.mesh.lattice());
+        let parent = TreeTriangle::from_mesh(self.mesh, id).parent(self.mesh.lattice());
         parent.is_some_and(|parent| !asks_to_bisect(&parent, criterion, limits))
     }
 }
@@ -102,7 +102,7 @@ mod tests {
         let mut both = [0, 0];
         for (point, id) in pixels.iter() {
             let id = id.unwrap();
-            let triangle = TreeTriangle::of(&built.mesh, id);
+            let triangle = TreeTriangle::from_mesh(&built.mesh, id);
             let cause = Explanation::new(&built.mesh, triangle, &criterion, &limits).cause;
             assert_eq!(forced(id), matches!(cause, Cause::Compatibility { .. }), "{point}");
             both[usize::from(forced(id))] += 1;

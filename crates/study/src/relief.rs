@@ -18,7 +18,7 @@ const ISOBATHS: f64 = 10.0;
 const RELIEF: f64 = 0.08;
 /// The direction to the light, east, north and up: from the north-west.
 const LIGHT: [f64; 3] = [-0.5, 0.5, FRAC_1_SQRT_2];
-/// How far a point on an edge can seem to be outside, as a share of the height.
+/// By how much rounding can make a point on an edge seem to be outside, as a share of the height.
 const ROUNDING: f64 = 1e-9;
 /// Depth that counts as least in relative differences, in metres.
 const LEAST_DEPTH: f64 = 10.0;
@@ -63,7 +63,7 @@ impl ReliefSampling {
         Self { relief, rows: 0, sign }
     }
 
-    /// Samples so many more rows of the surface of the relief. Returns whether there are more.
+    /// Samples `rows` more rows of the surface of the relief. Returns whether there are more.
     pub fn advance(&mut self, rows: u32, value_at: impl Fn(DVec2) -> Option<f64>) -> Progress {
         let depths = &mut self.relief.depths;
         let ([columns, all], centers) = (depths.size(), depths.pixel_centers());
@@ -97,13 +97,13 @@ pub struct ReliefPixel {
 impl Relief {
     /// Begins the relief of a surface of depths over `bounds` in world units; `size` is [columns, rows].
     /// `domain` is all that the relief could be drawn of: it says how steep the ground is drawn.
-    pub fn of_depths(surface: &DepthSurface, domain: Rect, pixels: (Rect, [u32; 2])) -> ReliefSampling {
+    pub fn from_depths(surface: &DepthSurface, domain: Rect, pixels: (Rect, [u32; 2])) -> ReliefSampling {
         ReliefSampling::new((surface.deepest(), 0.0), domain, pixels, 1.0)
     }
 
-    /// Begins the relief of a surface of heights, as [`Self::of_depths`]: depths are minus the heights, and
+    /// Begins the relief of a surface of heights, as [`Self::from_depths`]: depths are minus the heights, and
     /// isobaths are contour lines. `rise` is the difference of the greatest and the least height.
-    pub fn of_heights(rise: f64, domain: Rect, pixels: (Rect, [u32; 2])) -> ReliefSampling {
+    pub fn from_heights(rise: f64, domain: Rect, pixels: (Rect, [u32; 2])) -> ReliefSampling {
         ReliefSampling::new((rise, f64::NEG_INFINITY), domain, pixels, -1.0)
     }
 
@@ -264,7 +264,7 @@ mod tests {
 
     fn relief(layers: &[Layer]) -> Relief {
         let surface = DepthSurface::of(layers).unwrap();
-        let sampling = Relief::of_depths(&surface, Rect::UNIT, (Rect::UNIT, [200; 2]));
+        let sampling = Relief::from_depths(&surface, Rect::UNIT, (Rect::UNIT, [200; 2]));
         sampled(sampling, |point| surface.depth_at(point))
     }
 
@@ -299,7 +299,7 @@ mod tests {
         // A hill of 100 from 30 below zero, and nothing in the east.
         let height = |at: DVec2| 100.0 * (1.0 - 2.5 * at.distance(dvec2(0.5, 0.5))).max(0.0) - 30.0;
         let height_at = |at: DVec2| (at.x < 0.9).then(|| height(at));
-        let relief = sampled(Relief::of_heights(100.0, Rect::UNIT, (Rect::UNIT, [200; 2])), height_at);
+        let relief = sampled(Relief::from_heights(100.0, Rect::UNIT, (Rect::UNIT, [200; 2])), height_at);
         let pixels = pixels(&relief);
         let at = |x: usize, y: usize| pixels[200 * y + x].unwrap();
         assert!(pixels[199].is_none() && pixels[200 * 100 + 190].is_none());
@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn a_plane_is_lit_by_its_slope() {
         for slope in [dvec2(0.0, 0.0), dvec2(9.0, 0.0), dvec2(0.0, 9.0), dvec2(-4.0, 7.0), dvec2(8.0, -8.0)] {
-            let sampling = Relief::of_heights(10.0, Rect::UNIT, (Rect::UNIT, [20; 2]));
+            let sampling = Relief::from_heights(10.0, Rect::UNIT, (Rect::UNIT, [20; 2]));
             let relief = sampled(sampling, |at| Some(slope.dot(at)));
             let slope = relief.exaggeration * slope;
             let [east, north, up] = LIGHT;
@@ -329,7 +329,7 @@ mod tests {
     fn an_isobath_is_drawn_below_it_and_to_its_left() {
         for axis in 0..2 {
             let height = |at: DVec2| Some(if at[axis] < 0.5 { -5.0 } else { -15.0 });
-            let relief = sampled(Relief::of_heights(100.0, Rect::UNIT, (Rect::UNIT, [20; 2])), height);
+            let relief = sampled(Relief::from_heights(100.0, Rect::UNIT, (Rect::UNIT, [20; 2])), height);
             for (number, pixel) in pixels(&relief).into_iter().map(Option::unwrap).enumerate() {
                 assert_eq!(pixel.is_isobath, [number % 20, number / 20][axis] == 9, "{axis} {number}");
             }

@@ -23,11 +23,11 @@ pub(super) struct ReliefColors {
     state: OverlayState,
     layers: Vec<Layer>,
     rule: Option<Arc<SurfaceRule>>,
-    step: Step,
+    step: ReliefStep,
 }
 
 /// What is done next.
-enum Step {
+enum ReliefStep {
     Begin,
     /// The surface is sampled.
     Sample(ReliefSampling),
@@ -40,7 +40,7 @@ impl ReliefColors {
     /// Begins: with isobaths of the depths of layers, or with contour lines of surfaces, by the kind of
     /// overlay.
     pub(super) fn new(state: OverlayState, layers: Vec<Layer>, rule: Option<Arc<SurfaceRule>>) -> Self {
-        Self { state, layers, rule, step: Step::Begin }
+        Self { state, layers, rule, step: ReliefStep::Begin }
     }
 
     /// Takes a step. Returns the colours at the end: neutral ones where there is no surface.
@@ -50,16 +50,16 @@ impl ReliefColors {
 
     fn advance_by(&mut self, rows: u32) -> Slice<Pixels> {
         let OverlayState { size, palette, .. } = &self.state;
-        self.step = match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Begin => match self.begin() {
-                Some(sampling) => Step::Sample(sampling),
+        self.step = match std::mem::replace(&mut self.step, ReliefStep::Done) {
+            ReliefStep::Begin => match self.begin() {
+                Some(sampling) => ReliefStep::Sample(sampling),
                 None => return Slice::Found(Pixels { rgba: neutral(*size, palette) }),
             },
-            Step::Sample(mut sampling) => match self.sample(&mut sampling, rows) {
-                Progress::More => Step::Sample(sampling),
-                Progress::Done => Step::Color(sampling.finish(), Vec::new()),
+            ReliefStep::Sample(mut sampling) => match self.sample(&mut sampling, rows) {
+                Progress::More => ReliefStep::Sample(sampling),
+                Progress::Done => ReliefStep::Color(sampling.finish(), Vec::new()),
             },
-            Step::Color(relief, mut rgba) => {
+            ReliefStep::Color(relief, mut rgba) => {
                 let first = rgba.len() as u32 / size[0].max(1);
                 let end = first.saturating_add(rows.max(1));
                 let color = self.color();
@@ -67,9 +67,9 @@ impl ReliefColors {
                 if end >= size[1] {
                     return Slice::Found(Pixels { rgba });
                 }
-                Step::Color(relief, rgba)
+                ReliefStep::Color(relief, rgba)
             }
-            Step::Done => return Slice::Found(Pixels { rgba: neutral(*size, palette) }),
+            ReliefStep::Done => return Slice::Found(Pixels { rgba: neutral(*size, palette) }),
         };
         Slice::More
     }
@@ -79,11 +79,11 @@ impl ReliefColors {
         let OverlayState { domain, bounds, size, .. } = self.state;
         Some(match self.state.kind {
             FieldOverlay::Depth => {
-                Relief::of_depths(&DepthSurface::of(&self.layers)?, domain, (bounds, size))
+                Relief::from_depths(&DepthSurface::of(&self.layers)?, domain, (bounds, size))
             }
             _ => {
                 let [lowest, highest] = self.heights()?;
-                Relief::of_heights(highest - lowest, domain, (bounds, size))
+                Relief::from_heights(highest - lowest, domain, (bounds, size))
             }
         })
     }

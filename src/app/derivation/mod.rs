@@ -122,16 +122,16 @@ pub struct Derivation {
     pieces_revision: u64,
     pieces_change: Option<PiecesChange>,
     coast: Coast,
-    running: Option<Running>,
+    running: Option<RunningDerivation>,
     succession: Succession<Key>,
     /// The data for which no mesh could be derived: it is not tried again.
     failed: Option<Key>,
 }
 
 /// A mesh that is being derived.
-struct Running {
+struct RunningDerivation {
     key: Key,
-    job: Job<Outcome>,
+    job: Job<DerivationResult>,
     /// The change of the follower's mesh since then.
     since: Option<MeshChange>,
     /// The triangles whose pieces the coast replaced since then.
@@ -139,7 +139,7 @@ struct Running {
 }
 
 /// The values that the other thread sends, in this order.
-enum Outcome {
+enum DerivationResult {
     Derived(Box<Derived>, PatchPieces, RemovedTriangles),
     Coast(Box<OutlineFollower>),
     Quality(FitQuality),
@@ -258,7 +258,7 @@ impl Derivation {
 
     /// The thread has ended: with a mesh, because it gave way to the next one, or because it failed.
     fn end(&mut self) {
-        let Some(Running { key, job, .. }) = self.running.take() else { return };
+        let Some(RunningDerivation { key, job, .. }) = self.running.take() else { return };
         let has_derived = !self.is_new(&key);
         self.succession.ended(has_derived);
         self.failed = Some(key).filter(|_| !has_derived && !job.is_cancelled());
@@ -271,16 +271,16 @@ impl Derivation {
         }
     }
 
-    fn take(&mut self, outcome: Outcome, follower: &Follower) {
+    fn take(&mut self, outcome: DerivationResult, follower: &Follower) {
         match outcome {
-            Outcome::Derived(derived, pieces, removed) => {
+            DerivationResult::Derived(derived, pieces, removed) => {
                 self.coast.remove(removed, follower);
                 let pieces = self.followed(pieces, follower);
                 self.latest = Some(*derived);
                 self.replace_pieces(pieces);
             }
-            Outcome::Coast(outline) => self.begin_coast(*outline, follower),
-            Outcome::Quality(quality) => {
+            DerivationResult::Coast(outline) => self.begin_coast(*outline, follower),
+            DerivationResult::Quality(quality) => {
                 if let Some(derived) = &mut self.latest {
                     derived.quality = Some(quality);
                 }
@@ -326,26 +326,29 @@ impl Derivation {
         let settings = follower.settings();
         let (domain, cleaning) = (follower.domain().clone(), key.cleaning);
         let derivation = MeshDerivation::new(follower.shared_mesh(), domain, cleaning, follows);
-        let work =
-            Work { key: key.clone(), in_world: settings.domain.clone(), step: Step::Derive(derivation) };
+        let work = DerivationWork {
+            key: key.clone(),
+            in_world: settings.domain.clone(),
+            step: DerivationStep::Derive(derivation),
+        };
         let begin = move || {
             drop(useless);
             Some(work)
         };
-        let job = jobs.start_in_slices(Kind::Compute, begin, Work::advance);
-        self.running = Some(Running { key, job, since: None, replaced: Vec::new() });
+        let job = jobs.start_in_slices(Kind::Compute, begin, DerivationWork::advance);
+        self.running = Some(RunningDerivation { key, job, since: None, replaced: Vec::new() });
     }
 }
 
 /// A mesh to be derived, to be kept in step along the coast, and to be compared with the outline.
-struct Work {
+struct DerivationWork {
     key: Key,
     in_world: Domain,
-    step: Step,
+    step: DerivationStep,
 }
 
 /// What is done next.
-enum Step {
+enum DerivationStep {
     Derive(MeshDerivation),
     Extract(MeshDerivation, DerivedMesh),
     Send(MeshDerivation, DerivedMesh, Arc<Extract<'static>>),
@@ -354,50 +357,50 @@ enum Step {
     Done,
 }
 
-impl Work {
+impl DerivationWork {
     /// Takes the next step, and sends what it has found.
-    fn advance(&mut self, output: &Output<Outcome>) -> Progress {
-        self.step = match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Derive(mut derivation) => {
+    fn advance(&mut self, output: &Output<DerivationResult>) -> Progress {
+        self.step = match std::mem::replace(&mut self.step, DerivationStep::Done) {
+            DerivationStep::Derive(mut derivation) => {
                 derivation.advance();
                 match derivation.take_derived() {
-                    Some(derived) => Step::Extract(derivation, derived),
-                    None => Step::Derive(derivation),
+                    Some(derived) => DerivationStep::Extract(derivation, derived),
+                    None => DerivationStep::Derive(derivation),
                 }
             }
-            Step::Extract(derivation, derived) => {
+            DerivationStep::Extract(derivation, derived) => {
                 let extract = Arc::new(derived.extract(derivation.mesh()).into_owned());
-                Step::Send(derivation, derived, extract)
+                DerivationStep::Send(derivation, derived, extract)
             }
-            Step::Send(derivation, derived, extract) => {
+            DerivationStep::Send(derivation, derived, extract) => {
                 self.send(&derivation, &derived, &extract, output);
-                Step::Follow(derivation, extract)
+                DerivationStep::Follow(derivation, extract)
             }
-            Step::Follow(mut derivation, extract) => {
+            DerivationStep::Follow(mut derivation, extract) => {
                 let progress = derivation.advance();
                 if let Some(outline) = derivation.take_follower() {
-                    output.send(Outcome::Coast(Box::new(outline)));
+                    output.send(DerivationResult::Coast(Box::new(outline)));
                 }
                 match progress {
-                    Progress::More => Step::Follow(derivation, extract),
+                    Progress::More => DerivationStep::Follow(derivation, extract),
                     Progress::Done => {
                         let ground = self.in_world.ground();
-                        Step::Compare(FitComparison::new(&extract, &self.key.region, &ground))
+                        DerivationStep::Compare(FitComparison::new(&extract, &self.key.region, &ground))
                     }
                 }
             }
-            Step::Compare(mut comparison) => {
+            DerivationStep::Compare(mut comparison) => {
                 match comparison.advance(&self.key.region, &self.in_world.ground()) {
-                    None => Step::Compare(comparison),
+                    None => DerivationStep::Compare(comparison),
                     Some(quality) => {
-                        output.send(Outcome::Quality(quality));
-                        Step::Done
+                        output.send(DerivationResult::Quality(quality));
+                        DerivationStep::Done
                     }
                 }
             }
-            Step::Done => Step::Done,
+            DerivationStep::Done => DerivationStep::Done,
         };
-        if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
+        if matches!(self.step, DerivationStep::Done) { Progress::Done } else { Progress::More }
     }
 
     /// Sends a derived mesh with its pieces.
@@ -406,7 +409,7 @@ impl Work {
         derivation: &MeshDerivation,
         derived_mesh: &DerivedMesh,
         extract: &Arc<Extract<'static>>,
-        output: &Output<Outcome>,
+        output: &Output<DerivationResult>,
     ) {
         let mesh = derivation.mesh();
         let pieces = PatchPieces::new(mesh, derived_mesh.patch(), extract);
@@ -421,7 +424,7 @@ impl Work {
             extract: extract.clone(),
         };
         let removed = RemovedTriangles::of(derived_mesh);
-        output.send(Outcome::Derived(Box::new(derived), pieces, removed));
+        output.send(DerivationResult::Derived(Box::new(derived), pieces, removed));
     }
 }
 

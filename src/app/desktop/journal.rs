@@ -32,7 +32,7 @@ use meshbrush_io::io::project::Project;
 use meshbrush_ui::widgets::Answer;
 
 /// An entry that the thread writes.
-enum Entry {
+enum JournalEntry {
     /// Everything, and the file that it belongs to.
     Whole(Box<Project>, Option<PathBuf>),
     /// The document after a gesture: its settings, if they changed, and its paint.
@@ -49,7 +49,7 @@ enum Entry {
     End { remove: bool },
 }
 
-impl Entry {
+impl JournalEntry {
     /// Takes in the next entry, if one of both suffices.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl Entry {
 
 /// Keeps a journal of the document.
 pub struct JournalKeeper {
-    sender: Sender<Entry>,
+    sender: Sender<JournalEntry>,
     /// They write entries, pack shorter journals and wait for the disk, and send problems, until the end.
     writing: [Option<Job<String>>; 3],
     /// Cancels the first entry of a document, when nothing is to be kept.
@@ -168,12 +168,12 @@ impl JournalKeeper {
 
     /// Deletes what an earlier run left behind, once everything recorded so far is on the disk.
     pub fn forget(&self, left: Abandoned) {
-        self.enter(Entry::Forget(Box::new(left)));
+        self.enter(JournalEntry::Forget(Box::new(left)));
     }
 
     /// Records that nothing is unsaved.
     pub fn note_saved(&self, project: &ProjectFile) {
-        self.enter(Entry::Clean(project.path().map(Path::to_owned)));
+        self.enter(JournalEntry::Clean(project.path().map(Path::to_owned)));
     }
 
     /// Returns the problem since the last call, if there was one.
@@ -184,7 +184,7 @@ impl JournalKeeper {
         })
     }
 
-    fn enter(&self, entry: Entry) {
+    fn enter(&self, entry: JournalEntry) {
         // A thread that ended has reported its problem.
         let _ = self.sender.send(entry);
     }
@@ -194,7 +194,7 @@ impl JournalKeeper {
         if remove {
             self.ending.cancel();
         }
-        self.enter(Entry::End { remove });
+        self.enter(JournalEntry::End { remove });
         self.writing.iter_mut().filter_map(Option::take).for_each(|job| jobs.wait_for_end(&job));
     }
 }
@@ -202,7 +202,7 @@ impl JournalKeeper {
 /// The threads hold senders to each other: without this they would wait for ever.
 impl Drop for JournalKeeper {
     fn drop(&mut self) {
-        self.enter(Entry::End { remove: false });
+        self.enter(JournalEntry::End { remove: false });
     }
 }
 
@@ -218,7 +218,7 @@ struct Keeping {
 
 impl Keeping {
     /// Writes entries until the end.
-    fn run(mut self, entries: &Receiver<Entry>) -> std::io::Result<()> {
+    fn run(mut self, entries: &Receiver<JournalEntry>) -> std::io::Result<()> {
         let mut next = None;
         while let Some(mut entry) = next.take().or_else(|| entries.recv().ok()) {
             while let Ok(later) = entries.try_recv() {
@@ -230,7 +230,7 @@ impl Keeping {
                     }
                 }
             }
-            if let Entry::End { remove } = entry {
+            if let JournalEntry::End { remove } = entry {
                 return self.end(remove);
             }
             let outdated = self.write(entry)?;
@@ -246,9 +246,9 @@ impl Keeping {
     }
 
     /// Writes an entry. Returns what is to be deleted once everything is on the disk.
-    fn write(&mut self, entry: Entry) -> std::io::Result<Option<Outdated>> {
+    fn write(&mut self, entry: JournalEntry) -> std::io::Result<Option<Outdated>> {
         match (entry, &mut self.journal) {
-            (Entry::Whole(project, home), journal) => {
+            (JournalEntry::Whole(project, home), journal) => {
                 let old = journal.take().map(|mut old| {
                     old.give_up_renewal();
                     Outdated::Own(Box::new(old))
@@ -260,11 +260,11 @@ impl Keeping {
                 }
                 return Ok(old);
             }
-            (Entry::Gesture(settings, paint), Some(journal)) => {
+            (JournalEntry::Gesture(settings, paint), Some(journal)) => {
                 journal.add(settings.map(|settings| *settings), &paint, now())?;
             }
-            (Entry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
-            (Entry::Packed(Ok(mut renewed)), Some(journal)) if !renewed.is_unwanted() => {
+            (JournalEntry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
+            (JournalEntry::Packed(Ok(mut renewed)), Some(journal)) if !renewed.is_unwanted() => {
                 match journal.complete(&mut renewed) {
                     Ok(()) => _ = self.renewals.send(ToRenew::Sync(renewed)),
                     Err(_) => {
@@ -273,16 +273,22 @@ impl Keeping {
                     }
                 }
             }
-            (Entry::Synced(renewed), Some(journal)) => {
+            (JournalEntry::Synced(renewed), Some(journal)) => {
                 if journal.replace_by(renewed).is_err() {
                     journal.give_up_renewal();
                 }
             }
             // The longer journal has everything as well.
-            (Entry::Packed(Err(_)), Some(journal)) => journal.give_up_renewal(),
-            (Entry::Packed(Ok(renewed)) | Entry::Synced(renewed), _) => renewed.discard()?,
-            (Entry::Forget(left), _) => return Ok(Some(Outdated::Left(left))),
-            (Entry::Gesture(..) | Entry::Clean(_) | Entry::Packed(Err(_)) | Entry::End { .. }, _) => {}
+            (JournalEntry::Packed(Err(_)), Some(journal)) => journal.give_up_renewal(),
+            (JournalEntry::Packed(Ok(renewed)) | JournalEntry::Synced(renewed), _) => renewed.discard()?,
+            (JournalEntry::Forget(left), _) => return Ok(Some(Outdated::Left(left))),
+            (
+                JournalEntry::Gesture(..)
+                | JournalEntry::Clean(_)
+                | JournalEntry::Packed(Err(_))
+                | JournalEntry::End { .. },
+                _,
+            ) => {}
         }
         Ok(None)
     }
@@ -306,20 +312,20 @@ enum ToRenew {
 }
 
 /// Packs shorter journals and waits for the disk.
-fn renew(work: &Receiver<ToRenew>, to_keep: &Sender<Entry>) {
+fn renew(work: &Receiver<ToRenew>, to_keep: &Sender<JournalEntry>) {
     while let Ok(work) = work.recv() {
         let entry = match work {
-            ToRenew::Pack(renewal) => Entry::Packed(renewal.pack()),
+            ToRenew::Pack(renewal) => JournalEntry::Packed(renewal.pack()),
             ToRenew::Sync(renewed) => match renewed.wait_for_disk() {
-                Ok(()) => Entry::Synced(renewed),
+                Ok(()) => JournalEntry::Synced(renewed),
                 Err(error) => {
                     _ = renewed.discard(); // the longer journal has everything as well
-                    Entry::Packed(Err(error))
+                    JournalEntry::Packed(Err(error))
                 }
             },
         };
         let Err(unsent) = to_keep.send(entry) else { continue };
-        if let Entry::Packed(Ok(renewed)) | Entry::Synced(renewed) = unsent.0 {
+        if let JournalEntry::Packed(Ok(renewed)) | JournalEntry::Synced(renewed) = unsent.0 {
             _ = renewed.discard(); // the window has closed in the meantime
         }
     }
@@ -383,8 +389,8 @@ impl EditRecorder for JournalKeeper {
         }
         let home = project.path().map(Path::to_owned);
         self.enter(match edits.all_paint {
-            true => Entry::Whole(Box::new(Project::of(document)), home),
-            false => Entry::Gesture(
+            true => JournalEntry::Whole(Box::new(Project::of(document)), home),
+            false => JournalEntry::Gesture(
                 edits.settings.then(|| Box::new(document.settings().clone())),
                 document.paint().clone(),
             ),

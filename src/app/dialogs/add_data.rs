@@ -29,7 +29,7 @@ const PICTURE: f32 = 188.0;
 
 /// The state of the question, in egui's memory while it is open.
 #[derive(Clone)]
-struct Question {
+struct DataQuestion {
     /// The file that it is about.
     file: Arc<DataFile>,
     texture: TextureHandle,
@@ -43,9 +43,9 @@ struct Question {
 pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands: &mut Vec<Command>) {
     let id = Id::unique("question about a file of data");
     let roles = roles(state, file);
-    let kept = ctx.data(|data| data.get_temp::<Question>(id));
+    let kept = ctx.data(|data| data.get_temp::<DataQuestion>(id));
     let kept = kept.filter(|question| Arc::ptr_eq(&question.file, file));
-    let mut question = kept.unwrap_or_else(|| Question {
+    let mut question = kept.unwrap_or_else(|| DataQuestion {
         file: file.clone(),
         texture: texture(ctx, &file.preview),
         sea_texture: file.sea.as_ref().ok().map(|sea| texture(ctx, sea)),
@@ -65,7 +65,7 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
             return;
         }
     }
-    ctx.data_mut(|data| data.remove::<Question>(id));
+    ctx.data_mut(|data| data.remove::<DataQuestion>(id));
 }
 
 /// Returns the roles for such files in their order, each with the reason why it is impossible.
@@ -90,7 +90,7 @@ fn texture(ctx: &Context, preview: &Preview) -> TextureHandle {
     ctx.load_texture("preview of a file", ColorImage::new(preview.size, pixels), TextureOptions::LINEAR)
 }
 
-impl Question {
+impl DataQuestion {
     /// Returns whether to add the file or to cancel, once that was decided.
     fn contents(
         &mut self,

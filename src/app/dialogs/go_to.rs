@@ -13,12 +13,12 @@ use meshbrush_ui::widgets::{ActionButton, ButtonKind, TextError, TextRow, dialog
 
 /// The target that was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Place {
+enum GoToTarget {
     Point(DVec2),
     Triangle(usize),
 }
 
-impl Place {
+impl GoToTarget {
     /// Two numbers are a point, and one whole number is that of a triangle. Commas that group thousands
     /// belong to their number.
     fn parse(text: &str, unit: LengthUnit) -> Option<Self> {
@@ -106,7 +106,7 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.set_width(400.0);
         dialog_title(ui, "Go to");
         ui.add_space(8.0);
-        let place = Place::parse(&text, state.unit());
+        let place = GoToTarget::parse(&text, state.unit());
         let command = place.map(|place| place.command(state));
         let problem = command.as_ref().and_then(|command| command.as_ref().err()).cloned();
         let error = problem.as_deref().map(|message| TextError { message, at: None });
@@ -158,14 +158,14 @@ mod tests {
 
     #[test]
     fn points_and_numbers_of_triangles_are_told_apart() {
-        let parse = |text| Place::parse(text, LengthUnit::Metre);
+        let parse = |text| GoToTarget::parse(text, LengthUnit::Metre);
         for (text, x, y) in
             [("0.5, 0.25", 0.5, 0.25), ("-3 7", -3.0, 7.0), ("1 km; 20 m", 1000.0, 20.0), ("1,5", 1.0, 5.0)]
         {
-            assert_eq!(parse(text), Some(Place::Point(dvec2(x, y))), "{text}");
+            assert_eq!(parse(text), Some(GoToTarget::Point(dvec2(x, y))), "{text}");
         }
         for (text, number) in [("17", 17), ("#17", 17), ("37,987", 37_987), ("1,204,000", 1_204_000)] {
-            assert_eq!(parse(text), Some(Place::Triangle(number)), "{text}");
+            assert_eq!(parse(text), Some(GoToTarget::Triangle(number)), "{text}");
         }
         for text in ["", "x", "1.5", "-1", "1, 2, 3", "#a"] {
             assert_eq!(parse(text), None, "{text}");

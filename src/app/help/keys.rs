@@ -12,7 +12,7 @@ use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{SearchField, key_row, matches};
 
 /// A line of the list.
-struct Entry<'a> {
+struct HelpLine<'a> {
     group: &'a str,
     title: Cow<'a, str>,
     keys: String,
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, catalog: &[CatalogItem], keymap: &Keymap, commands: &mu
     // What is searched for can have no key yet.
     let found =
         entries.iter().filter(|entry| entry.matches(&query) && (entry.has_keys() || !query.is_empty()));
-    let found: Vec<&Entry<'_>> = found.filter(|entry| editor.shows(entry.item)).collect();
+    let found: Vec<&HelpLine<'_>> = found.filter(|entry| editor.shows(entry.item)).collect();
     if found.is_empty() {
         ui.label("No key or gesture matches.");
     }
@@ -57,7 +57,7 @@ pub fn page(catalog: &[CatalogItem]) -> String {
                     Written by a test.\n"
         .to_owned();
     let mut group = "";
-    for entry in entries(catalog).into_iter().filter(Entry::has_keys) {
+    for entry in entries(catalog).into_iter().filter(HelpLine::has_keys) {
         if entry.group != group {
             group = entry.group;
             page += &format!("\n## {group}\n\n| | |\n|---|---|\n");
@@ -68,8 +68,8 @@ pub fn page(catalog: &[CatalogItem]) -> String {
 }
 
 /// Gestures first: they are the hardest to guess.
-fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
-    let gestures = gestures().into_iter().map(|gesture| Entry {
+fn entries(catalog: &[CatalogItem]) -> Vec<HelpLine<'_>> {
+    let gestures = gestures().into_iter().map(|gesture| HelpLine {
         group: gesture.place.name(),
         title: gesture.title.into(),
         keys: gesture.keys.to_owned(),
@@ -80,7 +80,7 @@ fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
         let items = catalog.iter().filter(move |item| item.menu == *menu && item.gesture.is_empty());
         items.map(move |item| {
             let keys: Vec<String> = item.shortcuts.iter().map(shortcut_text).collect();
-            Entry {
+            HelpLine {
                 group,
                 title: item.title_with_situation().into(),
                 keys: keys.join(", "),
@@ -91,7 +91,7 @@ fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
     gestures.chain(keys).collect()
 }
 
-impl Entry<'_> {
+impl HelpLine<'_> {
     fn has_keys(&self) -> bool {
         !self.keys.is_empty()
     }

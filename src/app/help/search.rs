@@ -16,7 +16,7 @@ const MOST: usize = 40;
 const AROUND: usize = 40;
 
 /// A part of a page, from one heading to the next.
-struct Part {
+struct PagePart {
     page: &'static Page,
     /// The number of the block of the heading.
     block: usize,
@@ -67,21 +67,21 @@ pub fn results(ui: &mut Ui, query: &str, commands: &mut Vec<Command>) {
 }
 
 /// Returns the parts of all pages, which are made once.
-fn parts(ui: &Ui) -> Arc<Vec<Part>> {
+fn parts(ui: &Ui) -> Arc<Vec<PagePart>> {
     let id = Id::unique("parts of the manual");
-    ui.data(|data| data.get_temp::<Arc<Vec<Part>>>(id)).unwrap_or_else(|| {
+    ui.data(|data| data.get_temp::<Arc<Vec<PagePart>>>(id)).unwrap_or_else(|| {
         let parts = Arc::new(PAGES.iter().flat_map(parts_of).collect());
         ui.data_mut(|data| data.insert_temp(id, Arc::clone(&parts)));
         parts
     })
 }
 
-fn parts_of(page: &'static Page) -> Vec<Part> {
-    let mut parts: Vec<Part> = Vec::new();
+fn parts_of(page: &'static Page) -> Vec<PagePart> {
+    let mut parts: Vec<PagePart> = Vec::new();
     for (block, content) in blocks(page.text).iter().enumerate() {
         let text = match content {
             Block::Heading(_, spans) => {
-                parts.push(Part { page, block, heading: plain(spans), text: String::new() });
+                parts.push(PagePart { page, block, heading: plain(spans), text: String::new() });
                 continue;
             }
             Block::Paragraph(spans) | Block::Item(_, _, spans) => plain(spans),
@@ -101,7 +101,7 @@ fn row_text(cells: &[Vec<Span>]) -> String {
 }
 
 /// Returns the parts that have all words of a query, those with all of them in the heading first.
-fn hits(parts: &[Part], query: &str) -> Vec<Hit> {
+fn hits(parts: &[PagePart], query: &str) -> Vec<Hit> {
     let words: Vec<String> = query.split_whitespace().map(str::to_lowercase).collect();
     let has_all = |text: &str| words.iter().all(|word| text.contains(word.as_str()));
     let mut found: Vec<(bool, Hit)> = Vec::new();
@@ -112,7 +112,7 @@ fn hits(parts: &[Part], query: &str) -> Vec<Hit> {
         }
         let first = words.iter().find_map(|word| text.find(word.as_str())).unwrap_or(0);
         let excerpt = excerpt(&part.text, text[..first].chars().count());
-        let Part { page, block, ref heading, .. } = *part;
+        let PagePart { page, block, ref heading, .. } = *part;
         found.push((
             !has_all(&heading.to_lowercase()),
             Hit { page, block, heading: heading.clone(), excerpt },
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     fn found(query: &str) -> Vec<(String, String)> {
-        let parts: Vec<Part> = PAGES.iter().flat_map(parts_of).collect();
+        let parts: Vec<PagePart> = PAGES.iter().flat_map(parts_of).collect();
         hits(&parts, query).into_iter().map(|hit| (hit.page.title.to_owned(), hit.heading)).collect()
     }
 

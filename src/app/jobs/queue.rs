@@ -13,7 +13,7 @@ use crate::app::clock::{Duration, Instant};
 ///
 /// Where the system starts no thread, as in a browser, work waits for [`Self::run_slice`].
 #[derive(Clone, Default)]
-pub struct Queue(Arc<Threads>);
+pub struct Queue(Arc<JobThreads>);
 
 /// A slice that takes longer is felt by a hand that moves.
 const LONG: Duration = Duration::from_millis(30);
@@ -26,7 +26,7 @@ const LONGEST_WAIT: Duration = Duration::from_secs(10);
 pub type Source = &'static Location<'static>;
 
 /// Work that waits for its turn.
-struct Work {
+struct WaitingJob {
     /// One slice after the other, until it says that it is done.
     run: Box<dyn FnMut() -> Turn + Send>,
     /// Where it was started.
@@ -70,16 +70,16 @@ pub enum Ran {
 }
 
 #[derive(Default)]
-struct Threads {
-    state: Mutex<State>,
+struct JobThreads {
+    state: Mutex<QueueState>,
     /// A thread ended.
     ended: Condvar,
 }
 
 /// By kind.
 #[derive(Default)]
-struct State {
-    waiting: [VecDeque<Work>; Kind::ALL.len()],
+struct QueueState {
+    waiting: [VecDeque<WaitingJob>; Kind::ALL.len()],
     running: [usize; Kind::ALL.len()],
     /// No thread could be started.
     is_without_threads: bool,
@@ -87,11 +87,11 @@ struct State {
     longest: HashMap<Source, Duration>,
 }
 
-impl State {
+impl QueueState {
     /// Takes the oldest work of a kind that is allowed.
-    fn take(&mut self, kind: Kind, allowed: Allowed) -> Option<Work> {
+    fn take(&mut self, kind: Kind, allowed: Allowed) -> Option<WaitingJob> {
         let can_wait = matches!(kind, Kind::Compute | Kind::Write);
-        let may_run = |work: &Work| {
+        let may_run = |work: &WaitingJob| {
             let longest = self.longest.get(work.source);
             match allowed {
                 Allowed::All => true,
@@ -109,7 +109,7 @@ impl State {
 
     /// Notes how long a slice took. A whole run can have been short by chance, as with nothing to prove; one
     /// that was given up says nothing.
-    fn note(&mut self, work: &mut Work, took: Duration, turn: Turn) {
+    fn note(&mut self, work: &mut WaitingJob, took: Duration, turn: Turn) {
         work.longest = work.longest.max(took);
         let known = self.longest.entry(work.source).or_default();
         let kept = if turn == Turn::Done { known.mul_f64(KEPT) } else { *known };
@@ -120,7 +120,7 @@ impl State {
 impl Queue {
     /// Runs work, which does not panic, as soon as a thread is free.
     pub fn push(&self, kind: Kind, source: Source, work: impl FnMut() -> Turn + Send + 'static) {
-        let work = Work { run: Box::new(work), source, longest: Duration::ZERO, since: Instant::now() };
+        let work = WaitingJob { run: Box::new(work), source, longest: Duration::ZERO, since: Instant::now() };
         let mut state = self.0.lock();
         state.waiting[kind as usize].push_back(work);
         if state.running[kind as usize] == kind.most() || state.is_without_threads {
@@ -162,7 +162,7 @@ impl Queue {
         let mut state = self.0.lock();
         state.note(&mut work, began.elapsed(), turn);
         if turn == Turn::More {
-            state.waiting[kind as usize].push_back(Work { since: Instant::now(), ..work });
+            state.waiting[kind as usize].push_back(WaitingJob { since: Instant::now(), ..work });
         }
         Ran::Slice
     }
@@ -191,14 +191,14 @@ impl Queue {
     }
 }
 
-impl Threads {
+impl JobThreads {
     /// Work runs outside the lock, so that no panic leaves the state half changed.
-    fn lock(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, QueueState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Takes the oldest work of a kind; where there is none, the thread ends.
-    fn next_or_end(&self, kind: Kind) -> Option<Work> {
+    fn next_or_end(&self, kind: Kind) -> Option<WaitingJob> {
         let mut state = self.lock();
         let next = state.waiting[kind as usize].pop_front();
         if next.is_none() {

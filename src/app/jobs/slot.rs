@@ -4,11 +4,11 @@ use super::succession::Succession;
 use super::{Job, Jobs, Kind, Output, Taken, Wanted};
 use meshbrush_mesh::mesh::Progress;
 
-/// The value for a key that was computed last, and the one that is being computed. The key holds everything
-/// that the value depends on.
+/// Memoizes the last value computed for a key, and keeps the one that is being computed. The key holds
+/// everything that the value depends on. Keys that change quickly are debounced ([`Succession`]).
 pub struct Slot<K, T> {
     found: Option<(K, T)>,
-    running: Option<Running<K, T>>,
+    running: Option<RunningJob<K, T>>,
     /// The key whose value could not be computed: it is not tried again.
     failed: Option<K>,
     succession: Succession<K>,
@@ -22,7 +22,7 @@ pub enum Slice<T> {
     Found(T),
 }
 
-struct Running<K, T> {
+struct RunningJob<K, T> {
     key: K,
     job: Job<T>,
     /// Whether its value is of no use any more.
@@ -68,7 +68,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
 
     /// Returns whether the value for a key is known, being computed, or cannot be computed.
     pub fn has(&self, key: &K) -> bool {
-        let is_coming = |running: &Running<K, T>| running.key == *key && !running.job.is_cancelled();
+        let is_coming = |running: &RunningJob<K, T>| running.key == *key && !running.job.is_cancelled();
         self.found.as_ref().is_some_and(|(found, _)| found == key)
             || self.running.as_ref().is_some_and(is_coming)
             || self.failed.as_ref() == Some(key)
@@ -114,7 +114,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
                 output.send(value);
             }
         });
-        self.running = Some(Running { key, job, is_forgotten: false });
+        self.running = Some(RunningJob { key, job, is_forgotten: false });
     }
 
     /// Starts work as [`Self::start`] does, in slices: `begin` makes a state, or `None` where there is no
@@ -139,7 +139,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
             }
         };
         let job = jobs.start_in_slices(Kind::Compute, begin, slice);
-        self.running = Some(Running { key, job, is_forgotten: false });
+        self.running = Some(RunningJob { key, job, is_forgotten: false });
     }
 
     /// Takes the value that was computed, and waits for it as long as the frame may still wait. Returns
@@ -168,7 +168,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
         if matches!(taken, Taken::Working) {
             return true;
         }
-        let Some(Running { key, job, is_forgotten }) = self.running.take() else { return false };
+        let Some(RunningJob { key, job, is_forgotten }) = self.running.take() else { return false };
         let is_wanted = !is_forgotten && job.document() == jobs.document();
         match taken {
             Taken::Value(value) if is_wanted => {

@@ -1,4 +1,4 @@
-//! When a job for an older key gives way to one for a newer key.
+//! When a job for an older key gives way to one for a newer key: keys that change quickly are debounced.
 
 use super::Jobs;
 

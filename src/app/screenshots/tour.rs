@@ -20,9 +20,9 @@ use meshbrush_io::io;
 const WINDOW: Vec2 = vec2(980.0, 640.0);
 
 /// A step: the name of its picture, and what is done before it is taken.
-type Step = (&'static str, fn(&mut OffscreenWindow));
+type TourStep = (&'static str, fn(&mut OffscreenWindow));
 
-const STEPS: [Step; 8] = [
+const STEPS: [TourStep; 8] = [
     ("1-open", |window| point_at(window, dvec2(26.4, 38.9))),
     ("2-paint", paint),
     ("3-erase", erase),

@@ -33,15 +33,15 @@ pub fn ask(question: Question, jobs: &Jobs) -> Job<(Question, Answer)> {
 }
 
 /// A question that was not answered yet.
-type Asked = Rc<RefCell<Option<(Question, Output<(Question, Answer)>)>>>;
+type OpenQuestion = Rc<RefCell<Option<(Question, Output<(Question, Answer)>)>>>;
 
-fn answer(asked: &Asked, answer: Answer) {
+fn answer(asked: &OpenQuestion, answer: Answer) {
     if let Some((question, output)) = asked.take() {
         output.send((question, answer));
     }
 }
 
-fn open(asked: &Asked) -> Result<(), JsValue> {
+fn open(asked: &OpenQuestion) -> Result<(), JsValue> {
     let document = web_sys::window().and_then(|window| window.document()).ok_or("no document")?;
     let input: HtmlInputElement = document.create_element("input")?.dyn_into()?;
     input.set_type("file");

@@ -187,7 +187,7 @@ impl FinishedMesh {
     pub fn explanation(&self, id: TriangleId) -> Explanation {
         let criterion = self.built.criterion(Some(&self.origin.paint));
         let mesh = &self.built.mesh;
-        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.spec.limits)
+        Explanation::new(mesh, TreeTriangle::from_mesh(mesh, id), &criterion, &self.origin.spec.limits)
     }
 
     /// Returns which bisections of the mesh its criterion asks for.
@@ -234,7 +234,7 @@ impl FinishedMesh {
 /// Reads the files of an input, and builds the mesh.
 ///
 /// # Errors
-/// Fails when a file is of no use, the target is impossible somewhere, or a limit is reached.
+/// Fails when a file cannot be used, the target is impossible somewhere, or a limit is reached.
 pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
     build_from(input.read(terminal)?, terminal)
 }

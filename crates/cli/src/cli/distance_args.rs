@@ -84,7 +84,7 @@ impl DistanceArguments {
         let of_word = |word: &String| {
             let all = BoundaryType::WORDS.join(", ");
             let refused = || Failure::Usage(format!("--distance-to-type {word}: the types are {all}."));
-            BoundaryType::of_word(word).map(Into::into).ok_or_else(refused)
+            BoundaryType::from_word(word).map(Into::into).ok_or_else(refused)
         };
         let types = words.iter().map(of_word).collect::<Result<Vec<_>, _>>()?;
         let layer = SavedLayer {

@@ -21,7 +21,7 @@ pub enum Failure {
     /// The curve from risk to diameter is impossible.
     #[error(transparent)]
     Transfer(#[from] TransferError),
-    /// A file given as input is of no use.
+    /// A file given as input cannot be used.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// There is no mesh.

@@ -48,7 +48,7 @@ impl Output {
     }
 
     fn file(path: &Path, named: Option<ExportFormat>) -> Result<Self, Failure> {
-        let by_ending = ExportFormat::of(path);
+        let by_ending = ExportFormat::from_path(path);
         let fitting = named.filter(|format| format.fits(path) && by_ending != Ok(*format));
         let format = match fitting {
             Some(format) => format,

@@ -56,7 +56,8 @@ pub fn run(
     let files = outputs.iter().map(|output| &output.path).chain(&typed.certificate);
     files.into_iter().try_for_each(|file| check_place(file, &inputs))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let ask = |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, formula, saved, plane);
+    let ask =
+        |saved: &PathPlan, plane: Option<&DocumentPlane>| RequestedPath::new(typed, formula, saved, plane);
     let (read, mut asked) = read_and_ask(&input, terminal, ask)?;
     let (projection, unit) = (read.spec.domain.projection, read.unit);
     if let Some(places) = &places {
@@ -95,7 +96,7 @@ pub fn run(
     let about = asked.about(finished.domain());
     let write = |file| write_certificate(file, certificate.as_ref(), &about, &provenance, terminal);
     typed.certificate.as_deref().map_or(Ok(()), write)?;
-    let answer = Answer::new(&export, extract.triangles().len(), seconds);
+    let answer = PathAnswer::new(&export, extract.triangles().len(), seconds);
     answer.print(typed.json, export.solution().gap(), out)
 }
 
@@ -114,7 +115,7 @@ fn check_units(typed: &PathArguments, plane: Option<EarthPlane>, unit: LengthUni
 }
 
 /// The requested path: from the options, and from the project or recipe where an option is missing.
-struct Asked {
+struct RequestedPath {
     places: Vec<DVec2>,
     cost: PathCost,
     keep_out: Vec<Mask>,
@@ -122,7 +123,7 @@ struct Asked {
     name: String,
 }
 
-impl Asked {
+impl RequestedPath {
     /// Reads the keep-out regions, in the plane of the domain if it lies in one. `saved` is what the file
     /// says; its places are ignored if the options give some.
     fn new(
@@ -174,8 +175,8 @@ impl Asked {
 fn read_and_ask(
     input: &Input,
     terminal: &mut Terminal,
-    ask: impl FnOnce(&PathPlan, Option<&DocumentPlane>) -> Result<Asked, Failure>,
-) -> Result<(ToMesh, Asked), Failure> {
+    ask: impl FnOnce(&PathPlan, Option<&DocumentPlane>) -> Result<RequestedPath, Failure>,
+) -> Result<(ToMesh, RequestedPath), Failure> {
     if input.project.is_none() && input.recipe.is_none() && input.settings.domain.projection.is_none() {
         let asked = ask(&PathPlan::default(), None)?;
         return Ok((input.read(terminal)?, asked));
@@ -298,7 +299,7 @@ struct PathOutput {
 
 impl PathOutput {
     fn new(path: &Path) -> Result<Self, Failure> {
-        let format = PathFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
+        let format = PathFormat::from_path(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
         Ok(Self { path: path.to_owned(), format })
     }
 
@@ -336,7 +337,7 @@ impl PathOutput {
 
 /// The answer of `--json`.
 #[derive(Serialize)]
-struct Answer {
+struct PathAnswer {
     /// The cost of the path.
     cost: f64,
     /// No path costs less; 0 where no bound is known.
@@ -362,7 +363,7 @@ struct Answer {
     seconds: f64,
 }
 
-impl Answer {
+impl PathAnswer {
     fn new(export: &PathExport<'_>, triangles: usize, seconds: f64) -> Self {
         let Solution { cost, lower, upper, risk, highest_risk, .. } = *export.solution();
         let PathLengths { length, in_plane: length_in_plane, seconds: travel_seconds } = *export.lengths();

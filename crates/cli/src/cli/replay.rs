@@ -21,7 +21,8 @@ pub fn run(typed: &ReplayArguments, out: &mut dyn Write, terminal: &mut Terminal
     let what = format!("replaying {}", typed.file.display());
     let replayed = terminal.while_metered(&what, &meter, || file.replay(&meter))?;
     if typed.json {
-        let answer = serde_json::to_string(&Answer::of(&replayed)).expect("numbers and texts are valid JSON");
+        let answer =
+            serde_json::to_string(&ReplayAnswer::of(&replayed)).expect("numbers and texts are valid JSON");
         writeln!(out, "{answer}").map_err(Failure::Print)?;
     }
     match &replayed.difference {
@@ -45,7 +46,7 @@ fn summary(replayed: &Replayed) -> String {
 
 /// The answer of `--json`.
 #[derive(Serialize)]
-struct Answer<'a> {
+struct ReplayAnswer<'a> {
     /// Edits in the file.
     edits: usize,
     /// Whether every mesh is the recorded one.
@@ -66,7 +67,7 @@ struct SavedDifference<'a> {
     found: &'a str,
 }
 
-impl<'a> Answer<'a> {
+impl<'a> ReplayAnswer<'a> {
     fn of(replayed: &'a Replayed) -> Self {
         let difference = |Difference { edit, title, expected, found }: &'a Difference| SavedDifference {
             edit: *edit,

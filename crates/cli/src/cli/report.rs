@@ -13,7 +13,7 @@ use meshbrush_study::report::{Experiment, ExperimentMesh, ExperimentRun};
 
 /// The numbers of the experiment; its JSON is the answer of `--json`.
 #[derive(Serialize)]
-struct Answer<'a> {
+struct ReportAnswer<'a> {
     meshes: Vec<MeshAnswer<'a>>,
     /// The exponent of the power law of time over triangles, from the mesh of level 5 on: the gradient of the
     /// line of best fit in Figure 5.
@@ -61,7 +61,7 @@ pub fn run(typed: &ReportArguments, out: &mut dyn Write, terminal: &mut Terminal
 
 fn json(experiment: &Experiment) -> String {
     let law = experiment.power_law();
-    let answer = Answer {
+    let answer = ReportAnswer {
         meshes: experiment.meshes.iter().map(MeshAnswer::of).collect(),
         exponent: law.map(|law| law.exponent),
         exponent_uncertainty: law.map(|law| law.uncertainty).filter(|value| value.is_finite()),

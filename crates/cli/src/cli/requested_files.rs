@@ -86,7 +86,7 @@ impl RequestedFiles {
 
     fn of_output(saved: &SavedOutput) -> Result<Self, KeyFault> {
         let path = &saved.file;
-        ExportFormat::of(path).map_err(|error| KeyFault::value("file", error.to_string()))?;
+        ExportFormat::from_path(path).map_err(|error| KeyFault::value("file", error.to_string()))?;
         let file = Output::new(path, None, saved.binary);
         Self::of_checked(saved, file.map_err(|failure| KeyFault::value("file", failure.to_string()))?)
     }

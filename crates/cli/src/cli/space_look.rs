@@ -122,7 +122,7 @@ impl RequestedSpace {
     /// # Errors
     /// Fails when no node has a height.
     pub fn for_extract(&self, finished: &FinishedMesh, extract: &Extract) -> Result<SpaceLook, Failure> {
-        let source = HeightSource::of(finished.built().surface.as_deref(), finished.layers());
+        let source = HeightSource::new(finished.built().surface.as_deref(), finished.layers());
         let heights = source.map(|source| source.at_nodes(extract.lattice(), extract.nodes()));
         let heights = heights.and_then(|heights| NodeHeights::new(&heights, &[]));
         let Some(heights) = heights else {

@@ -80,7 +80,7 @@ impl SurfaceArguments {
     /// typed. The last surface is the lowest.
     pub fn layers(&self) -> impl Iterator<Item = (String, SavedLayer)> {
         self.surface.iter().rev().map(|text| {
-            let is_raster = RasterFormat::of(Path::new(text)).is_ok();
+            let is_raster = RasterFormat::from_path(Path::new(text)).is_ok();
             let layer = SavedLayer {
                 file: is_raster.then(|| PathBuf::from(text)),
                 formula: (!is_raster).then(|| text.clone()),

@@ -47,7 +47,7 @@ pub fn start(wanted: Option<NonZeroUsize>) -> Option<String> {
     }
 }
 
-/// Returns whether the system allows so many threads at a time.
+/// Returns whether the system allows `count` threads at a time.
 fn can_start(count: usize) -> bool {
     let gate = Mutex::new(());
     let closed = gate.lock().unwrap_or_else(PoisonError::into_inner);

@@ -55,7 +55,7 @@ pub fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {
 
 /// Returns the answer as JSON.
 pub fn answer_as_json(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation) -> String {
-    let answer = Answer::new(finished, id, explanation);
+    let answer = WhyAnswer::new(finished, id, explanation);
     serde_json::to_string(&answer).expect("numbers and texts are valid JSON")
 }
 
@@ -83,7 +83,7 @@ fn number(finished: &FinishedMesh, id: TriangleId) -> Option<usize> {
 
 /// The answer of `--json`.
 #[derive(Serialize)]
-struct Answer<'a> {
+struct WhyAnswer<'a> {
     /// The number in files.
     #[serde(skip_serializing_if = "Option::is_none")]
     triangle: Option<usize>,
@@ -132,7 +132,7 @@ enum SavedDemand<'a> {
     },
 }
 
-impl<'a> Answer<'a> {
+impl<'a> WhyAnswer<'a> {
     fn new(finished: &'a FinishedMesh, id: TriangleId, explanation: &Explanation) -> Self {
         let (cause, chain) = match &explanation.cause {
             Cause::Coarse => ("coarse", Vec::new()),

@@ -23,20 +23,20 @@ pub(super) struct Approximation {
     limits: Limits,
     /// The layers of surfaces, with all others.
     layers: Vec<Layer>,
-    step: Step,
+    step: ApproximationStep,
     capped: usize,
 }
 
 #[derive(Clone, Debug)]
-enum Step {
+enum ApproximationStep {
     Sample(SurfaceSampling),
-    Refine(Box<Refinement>),
+    Refine(Box<SurfaceRefinement>),
     /// A goal, with those that come after it.
     Find(Box<(Search, VecDeque<QueueGoal>)>),
 }
 
 #[derive(Clone, Debug)]
-struct Refinement {
+struct SurfaceRefinement {
     rule: SurfaceRule,
     refiner: Refiner,
     nodes: SurfaceNodes,
@@ -56,7 +56,7 @@ impl Approximation {
         let sampling = SurfaceSampling::new(layers, built.mesh.lattice())?;
         let step = match samples {
             Some(samples) => refine(SurfaceRule::new(samples, layers), None, built, limits),
-            None => Step::Sample(sampling),
+            None => ApproximationStep::Sample(sampling),
         };
         Some(Self { limits, layers: layers.to_vec(), step, capped: 0 })
     }
@@ -64,8 +64,8 @@ impl Approximation {
     /// Returns the number of triangles that the mesh has so far.
     pub(super) fn triangles(&self, built: &BuiltMesh) -> usize {
         match &self.step {
-            Step::Find(work) => work.0.queue.triangles(),
-            Step::Sample(_) | Step::Refine(_) => built.mesh.raw_triangle_count(),
+            ApproximationStep::Find(work) => work.0.queue.triangles(),
+            ApproximationStep::Sample(_) | ApproximationStep::Refine(_) => built.mesh.raw_triangle_count(),
         }
     }
 
@@ -82,7 +82,7 @@ impl Approximation {
         budget: usize,
     ) -> Result<Progress, RefineError> {
         let next = match &mut self.step {
-            Step::Sample(sampling) => {
+            ApproximationStep::Sample(sampling) => {
                 match sampling.advance(&built.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
                     Progress::More => None,
                     Progress::Done => {
@@ -91,7 +91,7 @@ impl Approximation {
                     }
                 }
             }
-            Step::Refine(work) => {
+            ApproximationStep::Refine(work) => {
                 if work.advance(built, paint, budget)? == Progress::More {
                     return Ok(Progress::More);
                 }
@@ -103,11 +103,11 @@ impl Approximation {
                     }
                     Some(goal) => {
                         let search = Search::new(built, work.rule.clone(), goal, &self.limits);
-                        Some(Step::Find(Box::new((search, std::mem::take(&mut work.goals)))))
+                        Some(ApproximationStep::Find(Box::new((search, std::mem::take(&mut work.goals)))))
                     }
                 }
             }
-            Step::Find(work) => match work.0.advance(built, paint, budget)? {
+            ApproximationStep::Find(work) => match work.0.advance(built, paint, budget)? {
                 Progress::More => None,
                 Progress::Done => {
                     let rule = work.0.rule.clone().with_found(&work.0.queue);
@@ -125,13 +125,23 @@ impl Approximation {
 
 /// Returns the refinement by a rule, before goals of the whole mesh: those of the rule, or what is left of
 /// them.
-fn refine(rule: SurfaceRule, goals: Option<VecDeque<QueueGoal>>, built: &BuiltMesh, limits: Limits) -> Step {
+fn refine(
+    rule: SurfaceRule,
+    goals: Option<VecDeque<QueueGoal>>,
+    built: &BuiltMesh,
+    limits: Limits,
+) -> ApproximationStep {
     let goals = goals.unwrap_or_else(|| rule.goals().into());
     let refiner = Refiner::new(&built.mesh, limits);
-    Step::Refine(Box::new(Refinement { rule, refiner, nodes: SurfaceNodes::default(), goals }))
+    ApproximationStep::Refine(Box::new(SurfaceRefinement {
+        rule,
+        refiner,
+        nodes: SurfaceNodes::default(),
+        goals,
+    }))
 }
 
-impl Refinement {
+impl SurfaceRefinement {
     /// Triangles inside one that satisfies h̄ by the area rule satisfy it too: only the vertex rule is asked
     /// again.
     fn advance(

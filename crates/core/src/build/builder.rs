@@ -46,7 +46,7 @@ enum BuildStep {
         field: Arc<SizeField>,
         check: LayerCheck,
     },
-    Refine(Box<Refinement>),
+    Refine(Box<RuleRefinement>),
     /// The mesh is brought close to surfaces.
     Approximate(Box<(BuiltMesh, Approximation)>),
     /// Triangles outside a fitted domain are marked; those before `first` are done.
@@ -58,7 +58,7 @@ enum BuildStep {
 }
 
 #[derive(Clone, Debug)]
-struct Refinement {
+struct RuleRefinement {
     built: BuiltMesh,
     refiner: RefinerByRule,
 }
@@ -283,7 +283,7 @@ impl MeshBuilder {
             }
         };
         let built = BuiltMesh { domain, field, rule, surface: None, mesh };
-        BuildStep::Refine(Box::new(Refinement { built, refiner }))
+        BuildStep::Refine(Box::new(RuleRefinement { built, refiner }))
     }
 }
 
@@ -314,7 +314,7 @@ impl MeshBuilder {
     }
 }
 
-impl Refinement {
+impl RuleRefinement {
     fn advance(&mut self, paint: Option<&PaintLayers>, budget: usize) -> Result<Progress, RefineError> {
         let BuiltMesh { domain, field, rule, mesh, .. } = &mut self.built;
         let criterion = RefinementCriterion::new(domain, field, *rule, paint);

@@ -38,13 +38,13 @@ pub struct CurveTracing {
     most: usize,
     curves: ErrorCurves,
     /// `None` once an error has ended the work.
-    step: Option<Step>,
+    step: Option<ErrorCurveStep>,
     /// The samples of the surfaces, where they are known from the start.
     samples: Option<Arc<SurfaceSamples>>,
 }
 
 #[derive(Clone, Debug)]
-enum Step {
+enum ErrorCurveStep {
     Build(Box<MeshBuilder>),
     Sample(Box<(BuiltMesh, SurfaceSampling)>),
     Order(Box<(BuiltMesh, Search)>),
@@ -107,7 +107,7 @@ impl CurveTracing {
         let builder = MeshBuilder::from_parts(others, parts);
         let most = most.min(spec.limits.most_triangles());
         let curves = ErrorCurves { norm, ..ErrorCurves::default() };
-        Self { spec, most, curves, step: Some(Step::Build(Box::new(builder))), samples }
+        Self { spec, most, curves, step: Some(ErrorCurveStep::Build(Box::new(builder))), samples }
     }
 
     /// Returns the curves so far.
@@ -118,8 +118,8 @@ impl CurveTracing {
     /// Returns the number of triangles of the largest mesh so far, and that of the largest there can be.
     pub fn progress(&self) -> [usize; 2] {
         let triangles = match &self.step {
-            Some(Step::Build(builder)) => builder.triangles(),
-            Some(Step::Order(work)) => work.1.queue.triangles(),
+            Some(ErrorCurveStep::Build(builder)) => builder.triangles(),
+            Some(ErrorCurveStep::Order(work)) => work.1.queue.triangles(),
             _ => 0,
         };
         [triangles.min(self.most), self.most]
@@ -135,52 +135,52 @@ impl CurveTracing {
     pub fn advance(&mut self, paint: Option<&PaintLayers>, budget: usize) -> Result<Progress, BuildError> {
         let step = self.step.take().expect("work that failed cannot go on");
         let next = match step {
-            Step::Build(mut builder) => match builder.advance(paint, budget)? {
-                Progress::More => Step::Build(builder),
+            ErrorCurveStep::Build(mut builder) => match builder.advance(paint, budget)? {
+                Progress::More => ErrorCurveStep::Build(builder),
                 Progress::Done => self.begin_sampling(builder.finish()),
             },
-            Step::Sample(mut work) => {
+            ErrorCurveStep::Sample(mut work) => {
                 match work.1.advance(&work.0.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
-                    Progress::More => Step::Sample(work),
+                    Progress::More => ErrorCurveStep::Sample(work),
                     Progress::Done => self.begin_order(work.0, Arc::new(work.1.take_found())),
                 }
             }
-            Step::Order(mut work) => match work.1.advance(&work.0, paint, budget)? {
-                Progress::More => Step::Order(work),
+            ErrorCurveStep::Order(mut work) => match work.1.advance(&work.0, paint, budget)? {
+                Progress::More => ErrorCurveStep::Order(work),
                 Progress::Done => self.begin_levels(*work)?,
             },
-            Step::Levels(mut levels) => match levels.advance(budget)? {
+            ErrorCurveStep::Levels(mut levels) => match levels.advance(budget)? {
                 Some(point) => self.take_level(levels, point),
-                None => Step::Levels(levels),
+                None => ErrorCurveStep::Levels(levels),
             },
-            Step::Done => Step::Done,
+            ErrorCurveStep::Done => ErrorCurveStep::Done,
         };
-        let progress = if matches!(next, Step::Done) { Progress::Done } else { Progress::More };
+        let progress = if matches!(next, ErrorCurveStep::Done) { Progress::Done } else { Progress::More };
         self.step = Some(next);
         Ok(progress)
     }
 
-    fn begin_sampling(&mut self, built: BuiltMesh) -> Step {
+    fn begin_sampling(&mut self, built: BuiltMesh) -> ErrorCurveStep {
         if let Some(samples) = self.samples.take() {
             return self.begin_order(built, samples);
         }
         match SurfaceSampling::new(&self.spec.field.layers, built.mesh.lattice()) {
-            Some(sampling) => Step::Sample(Box::new((built, sampling))),
-            None => Step::Done,
+            Some(sampling) => ErrorCurveStep::Sample(Box::new((built, sampling))),
+            None => ErrorCurveStep::Done,
         }
     }
 
-    fn begin_order(&mut self, built: BuiltMesh, samples: Arc<SurfaceSamples>) -> Step {
+    fn begin_order(&mut self, built: BuiltMesh, samples: Arc<SurfaceSamples>) -> ErrorCurveStep {
         let rule = SurfaceRule::new(samples, &self.spec.field.layers);
         let norm = self.curves.norm;
         self.curves.samples = rule.samples().count().known;
         self.curves.others = Some(point_of(&built.mesh, &built, &rule, norm));
         let goal = QueueGoal { norm, within: None, at_most: Some(self.most) };
         let search = Search::new(&built, rule, goal, &self.spec.limits);
-        Step::Order(Box::new((built, search)))
+        ErrorCurveStep::Order(Box::new((built, search)))
     }
 
-    fn begin_levels(&mut self, (built, search): (BuiltMesh, Search)) -> Result<Step, BuildError> {
+    fn begin_levels(&mut self, (built, search): (BuiltMesh, Search)) -> Result<ErrorCurveStep, BuildError> {
         let Search { rule, queue } = search;
         self.curves.least = queue.curve().collect();
         let MeshSpec { lattice, limits, .. } = &self.spec;
@@ -188,11 +188,20 @@ impl CurveTracing {
         let (norm, limits) = (self.curves.norm, *limits);
         let refiner = Refiner::new(&mesh, limits);
         let errors = Some(Vec::new());
-        Ok(Step::Levels(Box::new(Levels { built, rule, norm, limits, mesh, level: 0, refiner, errors })))
+        Ok(ErrorCurveStep::Levels(Box::new(Levels {
+            built,
+            rule,
+            norm,
+            limits,
+            mesh,
+            level: 0,
+            refiner,
+            errors,
+        })))
     }
 
     /// Takes the point of a level. Returns the work on the next one, if there is one.
-    fn take_level(&mut self, mut levels: Box<Levels>, point: CurvePoint) -> Step {
+    fn take_level(&mut self, mut levels: Box<Levels>, point: CurvePoint) -> ErrorCurveStep {
         if levels.level == 0 {
             self.curves.others.take_if(|others| others.triangles <= point.triangles);
         }
@@ -201,11 +210,11 @@ impl CurveTracing {
             || 2 * point.triangles > self.most
             || levels.level == levels.mesh.lattice().deepest_level();
         if is_last {
-            return Step::Done;
+            return ErrorCurveStep::Done;
         }
         levels.refiner = Refiner::new(&levels.mesh, levels.limits);
         levels.level += 1;
-        Step::Levels(levels)
+        ErrorCurveStep::Levels(levels)
     }
 }
 

@@ -55,7 +55,7 @@ const ROUTE: [DVec2; 2] = [dvec2(103_000.0, 5_402_000.0), dvec2(21_000.0, 5_686_
 const CLEARANCE: f64 = 5_000.0;
 /// The names of the layers, from the bottom to the top.
 const LAYERS: [&str; 4] = ["Long waves", "Slopes", "Along the coasts", "Straits"];
-/// The least and the greatest width of a strait, in metres.
+/// The minimum and the maximum width of a strait, in metres.
 const STRAITS: [f64; 2] = [6000.0, 30_000.0];
 /// Edges of the coasts along which straits are searched in one step.
 const EDGES: usize = 256;
@@ -63,11 +63,11 @@ const EDGES: usize = 256;
 /// The work of making the document of the sea, in steps.
 pub(super) struct Making {
     name: String,
-    step: Step,
+    step: SeaStep,
 }
 
 /// What is done next, and what is there for it.
-enum Step {
+enum SeaStep {
     /// A plane is chosen for the sea.
     Choose(Box<SeaChart>),
     /// The sea is placed in that plane.
@@ -89,63 +89,63 @@ enum Step {
 
 impl Making {
     pub(super) fn new(name: &str, chart: SeaChart) -> Self {
-        Self { name: name.into(), step: Step::Choose(Box::new(chart)) }
+        Self { name: name.into(), step: SeaStep::Choose(Box::new(chart)) }
     }
 
     /// Takes the next step. Returns the settings after the last one.
     pub(super) fn advance(&mut self) -> Option<Settings> {
-        self.step = match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Choose(chart) => {
+        self.step = match std::mem::replace(&mut self.step, SeaStep::Done) {
+            SeaStep::Choose(chart) => {
                 let reprojection = plane_for(&chart.sea);
-                Step::Place(Box::new((*chart, reprojection)))
+                SeaStep::Place(Box::new((*chart, reprojection)))
             }
-            Step::Place(work) => {
+            SeaStep::Place(work) => {
                 let (SeaChart { sea, depths }, reprojection) = *work;
                 let polygons: Vec<Polygon> = sea.into_iter().map(|named| named.polygon).collect();
-                Step::Cut(Box::new((projected_polygons(&polygons, &reprojection), depths, reprojection)))
+                SeaStep::Cut(Box::new((projected_polygons(&polygons, &reprojection), depths, reprojection)))
             }
-            Step::Cut(work) => {
+            SeaStep::Cut(work) => {
                 let (polygons, depths, reprojection) = *work;
                 let frame = Rect::new(FRAME[0], FRAME[1]);
                 // The frame was chosen, so that it alone cuts the sea.
                 let chosen = OutlineOnEarth::default();
                 let domain = Domain::of_stored_polygons(polygons, frame, &chosen).expect("a valid outline");
                 let domain = Domain { projection: Some(reprojection.to), ..domain };
-                Step::Project(Box::new((domain, depths, reprojection)))
+                SeaStep::Project(Box::new((domain, depths, reprojection)))
             }
-            Step::Project(work) => {
+            SeaStep::Project(work) => {
                 let (domain, depths, reprojection) = *work;
                 let depths =
                     projected_raster(&depths, &reprojection, domain.bounds).expect("depths of the domain");
                 let raster = Arc::new(RasterPyramid::new(depths));
-                Step::Slopes(Box::new((
+                SeaStep::Slopes(Box::new((
                     domain,
                     RasterSource { name: "celtic_sea_depths.tif".into(), raster },
                 )))
             }
-            Step::Slopes(work) => {
+            SeaStep::Slopes(work) => {
                 let (domain, depths) = *work;
                 let [waves, slopes] = depth_layers(&domain, &depths);
-                Step::Straits(Box::new((domain, [waves, slopes, along_coasts()])))
+                SeaStep::Straits(Box::new((domain, [waves, slopes, along_coasts()])))
             }
-            Step::Straits(work) => {
+            SeaStep::Straits(work) => {
                 let (domain, kinds) = *work;
                 let search = StraitSearch::new(&domain, &marks(), STRAITS);
-                Step::Search(Box::new((domain, kinds, search)))
+                SeaStep::Search(Box::new((domain, kinds, search)))
             }
-            Step::Search(mut work) => match work.2.advance(EDGES) {
-                Progress::More => Step::Search(work),
+            SeaStep::Search(mut work) => match work.2.advance(EDGES) {
+                Progress::More => SeaStep::Search(work),
                 Progress::Done => {
                     let (domain, [waves, slopes, coasts], search) = *work;
                     let straits = LayerKind::Straits(Straits { across: 3.0, found: search.finish() });
-                    Step::Complete(Box::new((domain, [waves, slopes, coasts, straits])))
+                    SeaStep::Complete(Box::new((domain, [waves, slopes, coasts, straits])))
                 }
             },
-            Step::Complete(work) => {
+            SeaStep::Complete(work) => {
                 let (domain, kinds) = *work;
                 return Some(settings(&self.name, domain, kinds));
             }
-            Step::Done => return None,
+            SeaStep::Done => return None,
         };
         None
     }
@@ -154,7 +154,7 @@ impl Making {
 /// Returns the way into the plane that the program chooses for the sea.
 fn plane_for(sea: &[NamedPolygon]) -> Reprojection {
     let rings = sea.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
-    let extent = GeographicExtent::of_rings(rings).expect("polygons");
+    let extent = GeographicExtent::from_rings(rings).expect("polygons");
     let projection = ProjectionChoice::Automatic.projection(&extent).expect("a small part of the Earth");
     Reprojection { from: Coordinates::Geographic, to: projection }
 }

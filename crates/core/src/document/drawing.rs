@@ -68,7 +68,7 @@ pub enum Drawing {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DrawingError {
-    /// The area is none, or too complex.
+    /// The area is empty or too complex.
     #[error(transparent)]
     Region(#[from] RegionError),
     /// The shapes would be none, or are nowhere.

@@ -109,23 +109,23 @@ impl Example {
     /// Begins to make the document, in steps. Only examples that need data ask for it.
     pub fn making(self, data: &impl ExampleData) -> ExampleMaking {
         ExampleMaking(match self {
-            Self::Threats => Step::Made(threats().into()),
-            Self::Diamond => Step::Settled(diamond().into()),
-            Self::Terrain => Step::Settled(terrain(data.slope()).into()),
-            Self::Heights => Step::Settled(heights(data.heights()).into()),
-            Self::Aegean => Step::Sea(data.sea()),
-            Self::CelticSea => Step::Chart(Making::new(self.name(), data.chart()).into()),
-            Self::Layers => Step::Slope(data.slope()),
-            Self::Path => Step::Settled(path().into()),
+            Self::Threats => ExampleStep::Made(threats().into()),
+            Self::Diamond => ExampleStep::Settled(diamond().into()),
+            Self::Terrain => ExampleStep::Settled(terrain(data.slope()).into()),
+            Self::Heights => ExampleStep::Settled(heights(data.heights()).into()),
+            Self::Aegean => ExampleStep::Sea(data.sea()),
+            Self::CelticSea => ExampleStep::Chart(Making::new(self.name(), data.chart()).into()),
+            Self::Layers => ExampleStep::Slope(data.slope()),
+            Self::Path => ExampleStep::Settled(path().into()),
         })
     }
 }
 
 /// The work of making the document of an example, in steps that take some ten milliseconds each.
-pub struct ExampleMaking(Step);
+pub struct ExampleMaking(ExampleStep);
 
 /// What is done next, and what is there for it.
-enum Step {
+enum ExampleStep {
     Sea(Vec<NamedPolygon>),
     Coasts(Vec<NamedPolygon>, Box<Domain>),
     Slope(Raster),
@@ -138,21 +138,21 @@ enum Step {
 impl ExampleMaking {
     /// Takes the next step. Returns the document after the last one.
     pub fn advance(&mut self) -> Option<Document> {
-        self.0 = match std::mem::replace(&mut self.0, Step::Done) {
-            Step::Sea(sea) => {
+        self.0 = match std::mem::replace(&mut self.0, ExampleStep::Done) {
+            ExampleStep::Sea(sea) => {
                 let polygons: Vec<Polygon> = sea.iter().map(|named| named.polygon.clone()).collect();
                 let domain = Domain::of_polygons(&polygons).expect("a valid outline");
-                Step::Coasts(sea, domain.into())
+                ExampleStep::Coasts(sea, domain.into())
             }
-            Step::Coasts(sea, domain) => Step::Settled(aegean(&sea, *domain).into()),
-            Step::Slope(slope) => Step::Made(layers(slope).into()),
-            Step::Chart(mut making) => match making.advance() {
-                Some(settings) => Step::Settled(settings.into()),
-                None => Step::Chart(making),
+            ExampleStep::Coasts(sea, domain) => ExampleStep::Settled(aegean(&sea, *domain).into()),
+            ExampleStep::Slope(slope) => ExampleStep::Made(layers(slope).into()),
+            ExampleStep::Chart(mut making) => match making.advance() {
+                Some(settings) => ExampleStep::Settled(settings.into()),
+                None => ExampleStep::Chart(making),
             },
-            Step::Settled(settings) => Step::Made(document(*settings).into()),
-            Step::Made(document) => return Some(*document),
-            Step::Done => return None,
+            ExampleStep::Settled(settings) => ExampleStep::Made(document(*settings).into()),
+            ExampleStep::Made(document) => return Some(*document),
+            ExampleStep::Done => return None,
         };
         None
     }

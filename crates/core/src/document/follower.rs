@@ -23,7 +23,7 @@
 use std::sync::Arc;
 
 use super::change::Change;
-use super::following::Following;
+use super::following::InPlaceUpdate;
 use super::rebuild::Rebuild;
 use super::shown::Shown;
 use super::{Document, Repainted, Settings, Stage};
@@ -63,7 +63,7 @@ enum FollowState {
         copy: Option<Box<MeshCopy>>,
     },
     /// Settings that the shown mesh can follow where it is are compared with those that it has, and checked.
-    Following(Box<Following>),
+    Following(Box<InPlaceUpdate>),
     /// Another mesh is built beside the shown one.
     Rebuilding(Box<Rebuild>),
     /// No work, as long as the document has this revision.
@@ -115,7 +115,7 @@ impl Follower {
 
     /// Follows a mesh that was made before, with these settings and the paint of the document as it was at
     /// the last call of [`Document::take_repainted`].
-    pub fn of_built(settings: Settings, built: BuiltMesh) -> Self {
+    pub fn from_built(settings: Settings, built: BuiltMesh) -> Self {
         Self {
             shown: Shown::new(settings, built, &[], &PaintLayers::default()),
             state: FollowState::InStep,
@@ -361,7 +361,7 @@ impl Follower {
     /// Returns one slice of work on other settings; at its end the mesh begins to follow.
     fn follow(
         &mut self,
-        mut following: Box<Following>,
+        mut following: Box<InPlaceUpdate>,
         document: &Document,
         budget: usize,
     ) -> Result<FollowState, BuildError> {

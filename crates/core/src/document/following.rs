@@ -1,4 +1,4 @@
-//! Other settings for the shown mesh, followed in place.
+//! Prepares an update in place: the shown mesh for other settings.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::mesh::Progress;
 /// Prepares an edit that the mesh can follow where it is, in slices: compares another outline with that of
 /// the shown mesh, indexes it, and checks another size field.
 #[derive(Clone, Debug)]
-pub(super) struct Following {
+pub(super) struct InPlaceUpdate {
     /// The settings after the edit.
     settings: Settings,
     outline: Option<OutlineWork>,
@@ -33,9 +33,9 @@ struct FieldWork {
     check: LayerCheck,
 }
 
-/// An edit that is prepared.
+/// An edit that is prepared, for the mesh to follow.
 #[derive(Clone, Debug)]
-pub(super) struct Followed {
+pub(super) struct PreparedUpdate {
     pub(super) settings: Settings,
     /// Another domain on the lattice of the mesh, and rectangles in world units in which it differs.
     pub(super) outline: Option<(DomainOnLattice, Vec<Rect>)>,
@@ -43,7 +43,7 @@ pub(super) struct Followed {
     pub(super) field: Option<Arc<SizeField>>,
 }
 
-impl Following {
+impl InPlaceUpdate {
     /// Returns the work from the settings and the field of a mesh to others, on the lattice of that mesh.
     pub(super) fn new(
         shown: &Settings,
@@ -86,11 +86,11 @@ impl Following {
     }
 
     /// Once done: what the mesh has to follow.
-    pub(super) fn finish(self) -> Followed {
+    pub(super) fn finish(self) -> PreparedUpdate {
         let outline = self.outline.map(|OutlineWork { comparison, index, is_done: _ }| {
             (index.finish(), comparison.areas().to_vec())
         });
-        Followed { settings: self.settings, outline, field: self.field.map(|work| work.field) }
+        PreparedUpdate { settings: self.settings, outline, field: self.field.map(|work| work.field) }
     }
 }
 

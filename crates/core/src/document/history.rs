@@ -75,7 +75,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
 
 /// One gesture, done or undone.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
+pub(super) struct HistoryEntry {
     /// The name of the edit, for display only.
     pub(super) title: &'static str,
     pub(super) data: EntryData,
@@ -90,9 +90,9 @@ pub(super) struct Entry {
 #[derive(Clone, Debug, Default)]
 pub struct History {
     /// The oldest first.
-    done: VecDeque<Entry>,
+    done: VecDeque<HistoryEntry>,
     /// The one undone last is the last.
-    undone: Vec<Entry>,
+    undone: Vec<HistoryEntry>,
     memory: Memory,
 }
 
@@ -103,7 +103,7 @@ impl History {
 
     /// Adds a gesture that was just done, and drops those that can no longer be redone. `current` are the
     /// document's settings after it.
-    pub(super) fn push(&mut self, entry: Entry, current: &Settings) {
+    pub(super) fn push(&mut self, entry: HistoryEntry, current: &Settings) {
         for undone in self.undone.drain(..) {
             self.memory.remove(&undone.data);
         }
@@ -121,17 +121,17 @@ impl History {
         self.done.iter().chain(&self.undone).filter_map(|entry| entry.data.settings())
     }
 
-    pub(super) fn last_done(&self) -> Option<&Entry> {
+    pub(super) fn last_done(&self) -> Option<&HistoryEntry> {
         self.done.back()
     }
 
-    pub(super) fn last_undone(&self) -> Option<&Entry> {
+    pub(super) fn last_undone(&self) -> Option<&HistoryEntry> {
         self.undone.last()
     }
 
     /// Undoes the last gesture: `exchange` exchanges its data with the document's. Returns whether there was
     /// one.
-    pub(super) fn undo(&mut self, exchange: impl FnOnce(&mut Entry)) -> bool {
+    pub(super) fn undo(&mut self, exchange: impl FnOnce(&mut HistoryEntry)) -> bool {
         let Some(mut entry) = self.done.pop_back() else { return false };
         self.exchange(&mut entry, exchange);
         self.undone.push(entry);
@@ -139,14 +139,14 @@ impl History {
     }
 
     /// Redoes the gesture that was undone last, in the same way.
-    pub(super) fn redo(&mut self, exchange: impl FnOnce(&mut Entry)) -> bool {
+    pub(super) fn redo(&mut self, exchange: impl FnOnce(&mut HistoryEntry)) -> bool {
         let Some(mut entry) = self.undone.pop() else { return false };
         self.exchange(&mut entry, exchange);
         self.done.push_back(entry);
         true
     }
 
-    fn exchange(&mut self, entry: &mut Entry, exchange: impl FnOnce(&mut Entry)) {
+    fn exchange(&mut self, entry: &mut HistoryEntry, exchange: impl FnOnce(&mut HistoryEntry)) {
         self.memory.remove(&entry.data);
         exchange(entry);
         self.memory.add(&entry.data);
@@ -187,13 +187,13 @@ struct Memory {
     own: usize,
     /// Data that entries share, by address. The address stays valid: an entry with an `Arc` to the data is in
     /// the history.
-    shared: NumberMap<usize, Shared>,
+    shared: NumberMap<usize, SharedMemory>,
     /// Bytes of all shared data, each counted once.
     shared_bytes: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Shared {
+struct SharedMemory {
     bytes: usize,
     /// How many entries refer to it.
     references: usize,
@@ -203,7 +203,7 @@ impl Memory {
     fn add(&mut self, data: &EntryData) {
         self.own += data.own_bytes();
         for (address, bytes) in data.settings().into_iter().flat_map(shared_data) {
-            let shared = self.shared.entry(address).or_insert(Shared { bytes, references: 0 });
+            let shared = self.shared.entry(address).or_insert(SharedMemory { bytes, references: 0 });
             if shared.references == 0 {
                 self.shared_bytes += bytes;
             }

@@ -16,7 +16,7 @@ const COARSEST_PIXELS: f64 = 1024.0;
 /// Most layers of a document: each question about a size asks all of them.
 pub(super) const MOST_LAYERS: usize = 1000;
 
-/// Checks that a document can have so many layers.
+/// Checks that a document can have this number of layers.
 ///
 /// # Errors
 /// Fails beyond 1,000.

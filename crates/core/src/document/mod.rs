@@ -56,7 +56,7 @@ pub use transfer_price::{SizePricer, TransferPrice, TransferPricer};
 use crate::layers::{LayerId, PaintChange, PaintLayers};
 use crate::paint::{Patch, Repaint};
 use change::Change;
-use history::{Entry, EntryData};
+use history::{EntryData, HistoryEntry};
 use strokes::LayerStroke;
 
 /// The ground state: settings and paint, the only data that is edited, undone and saved.
@@ -297,7 +297,8 @@ impl Document {
     /// Returns to earlier settings: undoes or redoes the last gesture where that leads there, and otherwise
     /// sets them as a gesture of its own. Paint stays as it is.
     pub fn return_to(&mut self, settings: &Settings) {
-        let leads_there = |entry: Option<&Entry>| entry.and_then(|e| e.data.settings()) == Some(settings);
+        let leads_there =
+            |entry: Option<&HistoryEntry>| entry.and_then(|e| e.data.settings()) == Some(settings);
         self.end_gesture();
         if self.settings == *settings || self.stroke.is_some() {
             return;
@@ -327,7 +328,7 @@ impl Document {
         std::mem::take(&mut self.edits)
     }
 
-    fn exchange(&mut self, entry: &mut Entry) {
+    fn exchange(&mut self, entry: &mut HistoryEntry) {
         std::mem::swap(&mut entry.version, &mut self.version);
         match &mut entry.data {
             EntryData::Paint(patches) => {
@@ -349,7 +350,7 @@ impl Document {
     fn enter(&mut self, title: &'static str, data: EntryData) {
         let version = self.version;
         self.next_version();
-        self.history.push(Entry { title, data, version }, &self.settings);
+        self.history.push(HistoryEntry { title, data, version }, &self.settings);
     }
 
     fn next_version(&mut self) {

@@ -16,8 +16,8 @@ use crate::paint::{Preview, Repaint, StrokePlan};
 /// rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
 #[derive(Clone, Debug, Default)]
 pub struct Pricer {
-    question: Option<Question>,
-    work: Work,
+    question: Option<StrokeQuestion>,
+    work: PricerState,
     /// What the last price was counted in: its memory is used again.
     counted: Option<Forecast>,
     answers: Answers,
@@ -49,7 +49,7 @@ impl Answers {
 
 /// A planned stroke, and what its price depends on: the price is valid as long as none of this changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Question {
+struct StrokeQuestion {
     plan: StrokePlan,
     layer: LayerId,
     document: u64,
@@ -57,18 +57,18 @@ struct Question {
 }
 
 #[derive(Clone, Debug, Default)]
-enum Work {
+enum PricerState {
     #[default]
     Idle,
     /// The stroke is painted.
     Painting(Box<Preview>),
     /// The triangles are counted, `paint` being what would be painted.
-    Counting(Box<Counting>),
+    Counting(Box<StrokeCount>),
     Known(Price),
 }
 
 #[derive(Clone, Debug)]
-struct Counting {
+struct StrokeCount {
     forecast: Forecast,
     paint: PaintLayers,
 }
@@ -132,14 +132,15 @@ impl Pricer {
             && document.settings().is_updated_in_place()
             && follower.is_in_step(document);
         let Some(plan) = plan.filter(|plan| answerable && plan.is_finite()) else {
-            (self.question, self.work) = (None, Work::Idle);
+            (self.question, self.work) = (None, PricerState::Idle);
             return;
         };
         let Ok(layer) = document.layer_for(&plan.brush.medium) else {
-            (self.question, self.work) = (None, Work::Known(Price::Nothing(NoChange::NoLayer)));
+            (self.question, self.work) = (None, PricerState::Known(Price::Nothing(NoChange::NoLayer)));
             return;
         };
-        let question = Question { plan, layer, document: document.revision(), mesh: follower.revision() };
+        let question =
+            StrokeQuestion { plan, layer, document: document.revision(), mesh: follower.revision() };
         if self.question != Some(question) {
             (self.question, self.work) = (Some(question), begin(question, document));
         }
@@ -147,14 +148,14 @@ impl Pricer {
 
     /// Returns the price of the stroke, once known.
     pub fn price(&self) -> Option<Price> {
-        if let Work::Known(price) = self.work { Some(price) } else { None }
+        if let PricerState::Known(price) = self.work { Some(price) } else { None }
     }
 
     /// Whether the price is still being computed.
     pub fn progress(&self) -> Progress {
         match self.work {
-            Work::Idle | Work::Known(_) => Progress::Done,
-            Work::Painting(_) | Work::Counting(_) => Progress::More,
+            PricerState::Idle | PricerState::Known(_) => Progress::Done,
+            PricerState::Painting(_) | PricerState::Counting(_) => Progress::More,
         }
     }
 
@@ -163,9 +164,9 @@ impl Pricer {
     pub fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Progress {
         let Some(question) = self.question else { return Progress::Done };
         self.work = match std::mem::take(&mut self.work) {
-            Work::Painting(preview) => self.paint_more(preview, question, document, follower, budget),
-            Work::Counting(counting) => self.count_more(counting, question, follower, budget),
-            settled @ (Work::Idle | Work::Known(_)) => settled,
+            PricerState::Painting(preview) => self.paint_more(preview, question, document, follower, budget),
+            PricerState::Counting(counting) => self.count_more(counting, question, follower, budget),
+            settled @ (PricerState::Idle | PricerState::Known(_)) => settled,
         };
         self.progress()
     }
@@ -173,24 +174,24 @@ impl Pricer {
     fn paint_more(
         &mut self,
         mut preview: Box<Preview>,
-        question: Question,
+        question: StrokeQuestion,
         document: &Document,
         follower: &Follower,
         budget: usize,
-    ) -> Work {
+    ) -> PricerState {
         if !preview.advance(budget) {
-            return Work::Painting(preview);
+            return PricerState::Painting(preview);
         }
         let (raster, changed) = preview.finish();
         if changed.is_empty() {
-            return Work::Known(Price::Nothing(NoChange::OutsideField));
+            return PricerState::Known(Price::Nothing(NoChange::OutsideField));
         }
         let is_same = match document.paint().get(question.layer) {
             Some(before) => *before == raster,
             None => raster.is_blank(),
         };
         if is_same {
-            return Work::Known(Price::Nothing(NoChange::PaintedAlready));
+            return PricerState::Known(Price::Nothing(NoChange::PaintedAlready));
         }
         let mut paint = document.paint().clone();
         paint.insert(question.layer, raster);
@@ -204,26 +205,26 @@ impl Pricer {
         let affected = planned.changed_areas(changes, field, &paint);
         let limits = follower.settings().limits();
         let forecast = match self.counted.take() {
-            Some(memory) => Forecast::of_changes_in(memory, affected, &limits),
-            None => Forecast::of_changes(affected, &limits),
+            Some(memory) => Forecast::for_changes_in(memory, affected, &limits),
+            None => Forecast::for_changes(affected, &limits),
         };
         match forecast {
             None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
-                Work::Known(Price::Nothing(NoChange::OutsideField))
+                PricerState::Known(Price::Nothing(NoChange::OutsideField))
             }
-            None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
-            Some(forecast) => Work::Counting(Box::new(Counting { forecast, paint })),
+            None => PricerState::Known(Price::Nothing(why_nothing(question, &paint, follower))),
+            Some(forecast) => PricerState::Counting(Box::new(StrokeCount { forecast, paint })),
         }
     }
 
     fn count_more(
         &mut self,
-        mut counting: Box<Counting>,
-        question: Question,
+        mut counting: Box<StrokeCount>,
+        question: StrokeQuestion,
         follower: &Follower,
         budget: usize,
-    ) -> Work {
-        let Counting { forecast, paint } = &mut *counting;
+    ) -> PricerState {
+        let StrokeCount { forecast, paint } = &mut *counting;
         let domain = follower.domain();
         let (field, known) = self.answers.planned.field(follower.field());
         let criterion = RefinementCriterion::by_area(domain, field, paint);
@@ -232,18 +233,18 @@ impl Pricer {
         let progress =
             forecast.advance(follower.mesh(), &criterion.shared_with(known, fewest), is_in_domain, budget);
         let price = match price_of(progress, forecast) {
-            None => return Work::Counting(counting),
+            None => return PricerState::Counting(counting),
             Some(Price::Change(0)) if forecast.added() == 0 && forecast.removed() == 0 => {
                 Price::Nothing(why_nothing(question, paint, follower))
             }
             Some(price) => price,
         };
         self.counted = Some(counting.forecast);
-        Work::Known(price)
+        PricerState::Known(price)
     }
 }
 
-fn begin(Question { plan, layer, .. }: Question, document: &Document) -> Work {
+fn begin(StrokeQuestion { plan, layer, .. }: StrokeQuestion, document: &Document) -> PricerState {
     let settings = document.settings();
     let (h_max, bounds) = (settings.transfer.h_max, settings.domain.bounds);
     let blank;
@@ -254,7 +255,7 @@ fn begin(Question { plan, layer, .. }: Question, document: &Document) -> Work {
             &blank
         }
     };
-    Work::Painting(Box::new(Preview::new(&plan, h_max, bounds, raster)))
+    PricerState::Painting(Box::new(Preview::new(&plan, h_max, bounds, raster)))
 }
 
 /// Returns whether a rectangle in world units has a point of the lattice of a field.
@@ -276,7 +277,7 @@ pub(super) fn price_of<E>(progress: Result<Progress, E>, forecast: &Forecast) ->
 }
 
 /// Returns why a stroke that changes pixels changes no triangle, judged where it ends.
-fn why_nothing(question: Question, paint: &PaintLayers, follower: &Follower) -> NoChange {
+fn why_nothing(question: StrokeQuestion, paint: &PaintLayers, follower: &Follower) -> NoChange {
     let decision = follower.field().decision_at(paint, question.plan.to);
     if decision.target >= follower.field().longest() {
         return NoChange::CoarserThanGrid;

@@ -31,10 +31,10 @@ impl Replay {
     /// Fails with a sentence for a person when the settings are out of range or there is no mesh.
     pub fn new(settings: Settings, paint: PaintLayers) -> Result<Self, String> {
         let document = Document::new(settings, Some(paint)).map_err(|error| error.to_string())?;
-        Self::of_document(document)
+        Self::from_document(document)
     }
 
-    fn of_document(mut document: Document) -> Result<Self, String> {
+    fn from_document(mut document: Document) -> Result<Self, String> {
         let follower = Follower::new(&mut document).map_err(|error| error.to_string())?;
         Ok(Self { document, follower })
     }

@@ -68,7 +68,7 @@ pub enum SettingsError {
     /// The diameter at the boundary is not a length.
     #[error("A diameter of {} at the boundary cannot be met: it must be positive and finite.", Number(*.0))]
     BoundaryDiameter(f64),
-    /// The share of the area is none.
+    /// The share of the area is not between 0 and 1.
     #[error("Parts with a share of {} of the area cannot be kept: a share is between 0 and 1.", Number(*.0))]
     PartShare(f64),
     /// The background picture would have no extent.
@@ -405,7 +405,7 @@ impl Settings {
     /// [`Self::MAX_TRIANGLES`].
     pub const MAX_MEMORY: usize = 2_600_000_000;
 
-    /// Returns the usual settings for a domain: lengths in proportion to its longer side.
+    /// Returns the default settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {
         let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
         let Transfer { h_min, h_risk, h_max, shape } = usual.transfer;

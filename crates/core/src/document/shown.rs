@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::change::Change;
-use super::following::{Followed, Following};
+use super::following::{InPlaceUpdate, PreparedUpdate};
 use super::pace::questions_per_thread;
 use super::pending::Pending;
 use super::rebuild::Rebuild;
@@ -47,28 +47,28 @@ enum Upkeep {
     NewMesh,
 }
 
-/// Number of triangles from which a mesh is made again rather than updated where most of it changes. Smaller
+/// Number of triangles from which a mesh is rebuilt rather than updated where most of it changes. Smaller
 /// meshes take a few frames either way, and an update keeps the numbers of triangles.
 const LARGE: usize = 250_000;
 
 /// Triangles that are looked at to estimate a share of them.
 const SAMPLE: usize = 256;
 
-/// A mesh is made again where more than one in so many triangles changes: to bisect a triangle or to put a
-/// parent back takes about so many times as long as to write a triangle of a block.
-const DEARER: usize = 8;
+/// How many times as long it takes to bisect a triangle, or to put a parent back, as to write a triangle of a
+/// block: the mesh is made again where more than one triangle in so many changes.
+const REBUILD_COST_RATIO: usize = 8;
 
-/// Returns whether an update of a mesh in some areas would take longer than another mesh, by a sample of its
-/// triangles: where about as many questions would be asked as the mesh has triangles, or many triangles
-/// bisected or removed. Questions about another mesh are fewer, as most answers are for many triangles.
-fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &RefinementCriterion<'_>) -> bool {
+/// Returns whether making a new mesh would take less time than updating this one in some areas, judged by a
+/// sample of its triangles: an update loses where it asks about as many questions as the mesh has triangles,
+/// or bisects or removes many of them. A new mesh asks fewer, as most answers hold for many triangles.
+fn rebuild_is_cheaper(areas: &[ChangedArea], mesh: &Mesh, criterion: &RefinementCriterion<'_>) -> bool {
     let rule = criterion.shared();
     let mut answers = rule.answers();
     let mut exceeds = |corners, level| answers.exceeds(corners, level).unwrap_or(false);
     let count = mesh.raw_triangle_count();
     let (mut asked, mut loose, mut changed) = (0, 0, 0);
     for index in (0..count).step_by(count.div_ceil(SAMPLE).max(1)) {
-        let triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
+        let triangle = TreeTriangle::from_mesh(mesh, TriangleId::from_index(index));
         let (corners, level) = (triangle.corners(), triangle.level());
         let [asks, loosens] = concerns(areas, mesh, corners, level);
         let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);
@@ -79,7 +79,7 @@ fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &Refine
                 || parent.is_some_and(|parent| !exceeds(parent.corners(), parent.level())),
         );
     }
-    2 * asked + loose > SAMPLE || DEARER * changed > SAMPLE
+    2 * asked + loose > SAMPLE || REBUILD_COST_RATIO * changed > SAMPLE
 }
 
 /// Returns what [`ChangedArea::concerns`] does, for the changes of all areas together.
@@ -165,7 +165,7 @@ impl Shown {
     /// Returns the work that brings the shown mesh up to date with a document, besides the updates that it
     /// still needs.
     ///
-    /// A mesh beyond the wanted budgets is made again: only that finds out whether they can be kept.
+    /// A mesh beyond the wanted budgets is rebuilt: only that shows whether they can be kept.
     pub(super) fn change_to(&self, document: &Document) -> Change {
         let wanted = document.settings();
         let is_same = self.settings == *wanted;
@@ -190,14 +190,14 @@ impl Shown {
     }
 
     /// Returns the work that follows an edit in place.
-    pub(super) fn follow(&self, wanted: &Settings, outline: bool, field: bool) -> Following {
-        Following::new(&self.settings, wanted, &self.field, outline, field)
+    pub(super) fn follow(&self, wanted: &Settings, outline: bool, field: bool) -> InPlaceUpdate {
+        InPlaceUpdate::new(&self.settings, wanted, &self.field, outline, field)
     }
 
-    /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or made again where that is
+    /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or rebuilt where that is
     /// faster for a large mesh.
-    pub(super) fn take(&mut self, followed: Followed, paint: &PaintLayers) {
-        let Followed { settings, outline, field } = followed;
+    pub(super) fn take(&mut self, followed: PreparedUpdate, paint: &PaintLayers) {
+        let PreparedUpdate { settings, outline, field } = followed;
         let outline_areas = outline.as_ref().map(|(_, areas)| areas.as_slice());
         let changes = field
             .as_ref()
@@ -207,8 +207,7 @@ impl Shown {
             field.as_deref().unwrap_or(&self.field),
             paint,
         );
-        if self.mesh.raw_triangle_count() >= LARGE && is_dearer_than_another(&changes, &self.mesh, &criterion)
-        {
+        if self.mesh.raw_triangle_count() >= LARGE && rebuild_is_cheaper(&changes, &self.mesh, &criterion) {
             self.upkeep = Upkeep::NewMesh;
             if outline.is_some() {
                 // Until the other mesh is shown, this one has the former outline.

@@ -17,9 +17,8 @@ impl Settings {
         Ok(())
     }
 
-    /// Returns whether the mesh is to be close to a surface. Then it is made again after each edit: a
-    /// triangle that is close enough may have parts that are not, so that coarsening would leave triangles
-    /// behind.
+    /// Returns whether the mesh is to be close to a surface. Then it is rebuilt after each edit: a triangle
+    /// that is close enough may have parts that are not, so that coarsening would leave triangles behind.
     pub fn has_surface(&self) -> bool {
         self.surfaces().next().is_some()
     }

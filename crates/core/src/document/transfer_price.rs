@@ -15,8 +15,8 @@ use crate::mesh::Progress;
 /// vertex rule there is none: every edit rebuilds the mesh.
 #[derive(Clone, Debug, Default)]
 pub struct TransferPricer {
-    question: Option<Question>,
-    work: Option<Box<Work>>,
+    question: Option<TransferQuestion>,
+    work: Option<Box<TransferWork>>,
     price: Option<TransferPrice>,
 }
 
@@ -42,7 +42,7 @@ impl TransferPrice {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Question {
+struct TransferQuestion {
     transfer: Transfer,
     area: Rect,
     document: u64,
@@ -50,7 +50,7 @@ struct Question {
 }
 
 #[derive(Clone, Debug)]
-struct Work {
+struct TransferWork {
     here: FieldPrice,
     price_here: Option<Price>,
     everywhere: SizePrice,
@@ -64,11 +64,11 @@ impl TransferPricer {
     pub fn ask(&mut self, question: Option<(Transfer, Rect)>, document: &Document, follower: &Follower) {
         let question = question.filter(|_| is_answerable(document, follower)).map(|(transfer, area)| {
             let (document, mesh) = (document.revision(), follower.revision());
-            Question { transfer, area, document, mesh }
+            TransferQuestion { transfer, area, document, mesh }
         });
         if question != self.question {
             (self.question, self.price) = (question, None);
-            self.work = question.and_then(|question| Work::new(question, document, follower));
+            self.work = question.and_then(|question| TransferWork::new(question, document, follower));
         }
     }
 
@@ -94,9 +94,9 @@ impl TransferPricer {
     }
 }
 
-impl Work {
+impl TransferWork {
     /// Returns the work with nothing counted; `None` where the area is outside the domain's rectangle.
-    fn new(question: Question, document: &Document, follower: &Follower) -> Option<Box<Self>> {
+    fn new(question: TransferQuestion, document: &Document, follower: &Follower) -> Option<Box<Self>> {
         let settings = Settings { transfer: question.transfer, ..document.settings().clone() };
         let everywhere = SizePrice::new(&settings, follower)?;
         let here = FieldPrice::new(everywhere.field.clone(), &question.area, follower)?;

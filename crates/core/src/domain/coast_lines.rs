@@ -47,7 +47,7 @@ impl CoastLines {
         self.closed.is_empty() && self.crossing.is_empty() && self.loose_ends.is_empty()
     }
 
-    /// Returns the lines through the frame as rings: each goes on along the frame, anticlockwise, from its
+    /// Returns the lines through the frame as rings: each continues along the frame, anticlockwise, from its
     /// end to its start.
     pub fn closed_along_frame(&self, frame: &Rect) -> Vec<Ring> {
         let corners = super::corners(frame);
@@ -157,7 +157,7 @@ fn edge_inside([from, to]: [DVec2; 2], frame: &Rect) -> Option<[DVec2; 2]> {
 
 /// Joins lines whose ends meet inside the frame. The first and the last point of a closed line are the same.
 fn joined(pieces: Vec<Vec<DVec2>>, frame: &Rect, tolerance: f64) -> Vec<Vec<DVec2>> {
-    let mut ends = Ends::default();
+    let mut ends = LineEnds::default();
     let mut lines: Vec<Option<Vec<DVec2>>> = Vec::new();
     for mut line in pieces {
         for _ in 0..2 {
@@ -196,9 +196,9 @@ fn close(line: &mut [DVec2], tolerance: f64) {
 
 /// The ends of lines, by squares of the plane.
 #[derive(Default)]
-struct Ends(NumberMap<[i64; 2], Vec<usize>>);
+struct LineEnds(NumberMap<[i64; 2], Vec<usize>>);
 
-impl Ends {
+impl LineEnds {
     fn square(at: DVec2, tolerance: f64) -> [i64; 2] {
         [at.x, at.y].map(|value| (value / (4.0 * tolerance)).floor() as i64)
     }

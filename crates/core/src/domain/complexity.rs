@@ -12,8 +12,8 @@ pub const MOST_CORNERS: usize = 1_000_000;
 /// Most crossings of the edges of a domain's polygons.
 pub const MOST_CROSSINGS: usize = 200_000;
 
-/// Edges are sorted into squares: one square for each edge at most, in so many columns and rows that there
-/// are about this many pairs of a square and an edge. The teeth of a comb get few rows and many columns.
+/// Edges are sorted into at most one square per edge, with columns and rows chosen so that there are about
+/// this many pairs of a square and an edge. The teeth of a comb get few rows and many columns.
 const MOST_ENTRIES: f64 = 8e6;
 /// Most pairs of edges that are tested. If the squares have more pairs, every k-th is tested and a crossing
 /// counts k times.

@@ -1,7 +1,7 @@
 //! The rectangle by which an outline was cut off from its surroundings.
 //!
-//! Coasts come as a box of longitudes and latitudes, or as a box in some plane: the sides of the box are no
-//! coasts, as the sea goes on there. In the plane of another projection these sides are curves, or straight
+//! Coasts come as a box of longitudes and latitudes, or as a box in some plane: the sides of the box are not
+//! coasts, as the sea continues there. In the plane of another projection these sides are curves, or straight
 //! lines that are not parallel to an axis. So the rectangle is kept in the coordinates where its sides are
 //! straight, and an edge of the outline is on a side if it is so there.
 
@@ -81,7 +81,7 @@ pub struct CutFrame {
 
 impl CutFrame {
     /// Returns a rectangle in world coordinates with sides along the axes.
-    pub(super) fn of_world(rect: Rect) -> Self {
+    pub(super) fn from_world(rect: Rect) -> Self {
         Self { coordinates: None, eastward: DVec2::X, rect }
     }
 

@@ -14,18 +14,18 @@ use super::{Region, Ring};
 use crate::earth::{Coordinates, Projection, Reprojection};
 use crate::geometry::Rect;
 
-/// Longitudes are told apart by so many parts of a circle, to find where the outline is not.
+/// Number of parts of a circle by which longitudes are distinguished, to find where the outline is not.
 const PARTS_OF_CIRCLE: usize = 720;
 /// How far a corner may be from the straight line between its neighbours, as a share of the width of the
 /// outline: an edge that was divided is still straight.
 const STRAIGHT: f64 = 1e-7;
 /// Straight parts whose directions a turned rectangle may have.
 const DIRECTIONS: usize = 6;
-/// The length of two sides that meet at a corner of a rectangle, at least, as a share of the width, where
+/// The minimum length of two sides that meet at a corner of a rectangle, as a share of the width, where
 /// nothing says that the outline was cut in its coordinates.
 const LEAST_SIDE: f64 = 1e-2;
 
-/// How many times as long as all other straight parts a side of a turned rectangle is, at least.
+/// A side of a turned rectangle is at least this many times as long as all other straight parts.
 const LEAST_RATIO: f64 = 2.0;
 
 /// What the coordinates of an outline mean on the Earth.
@@ -41,7 +41,7 @@ pub struct OutlineOnEarth {
 
 impl OutlineOnEarth {
     /// Returns that of an outline that was projected.
-    pub fn of(reprojection: &Reprojection) -> Self {
+    pub fn from_reprojection(reprojection: &Reprojection) -> Self {
         Self { file: Some(reprojection.from), projection: Some(reprojection.to), frame: None }
     }
 
@@ -74,7 +74,7 @@ fn utm(at: DVec2) -> Option<Coordinates> {
     (at.is_finite() && at.y.abs() < 84.0).then(|| Coordinates::of_epsg(hemisphere + zone)).flatten()
 }
 
-/// How sure it is that the outline was cut in the coordinates of a rectangle.
+/// How certain it is that the outline was cut in the coordinates of a rectangle.
 #[derive(Clone, Copy, PartialEq)]
 enum Evidence {
     /// They are those of the file.

@@ -11,7 +11,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A point of a segment, with the nearest of the other segments and its distance, in world units.
 #[derive(Clone, Copy)]
-struct Measured {
+struct FarPoint {
     point: DVec2,
     nearest: u32,
     distance: f64,
@@ -33,14 +33,14 @@ struct Measured {
 ///                 └────── t
 /// ```
 pub(super) fn farthest(edges: &[[DVec2; 2]], others: &Segments) -> Option<(f64, DVec2)> {
-    let mut last: Option<Measured> = None;
+    let mut last: Option<FarPoint> = None;
     let mut measured = |point: DVec2| {
         // Edges mostly begin where the one before ends.
         let known = last.filter(|last| last.point == point);
         last = Some(known.unwrap_or_else(|| measure(point, others)));
         last.expect("it was just set")
     };
-    let parts: Vec<[Measured; 2]> = edges.iter().map(|&[a, b]| [measured(a), measured(b)]).collect();
+    let parts: Vec<[FarPoint; 2]> = edges.iter().map(|&[a, b]| [measured(a), measured(b)]).collect();
     let best = parts.iter().flatten().copied().reduce(|a, b| if b.distance > a.distance { b } else { a })?;
     let coordinates = edges.iter().flatten().map(|p| p.abs().max_element());
     let largest = coordinates.fold(others.largest_coordinate(), f64::max);
@@ -50,16 +50,16 @@ pub(super) fn farthest(edges: &[[DVec2; 2]], others: &Segments) -> Option<(f64, 
     Some((if is_rounding { search.best.distance } else { search.upper }, search.best.point))
 }
 
-fn measure(point: DVec2, others: &Segments) -> Measured {
+fn measure(point: DVec2, others: &Segments) -> FarPoint {
     let (nearest, distance) = others.nearest(point, |_| true).expect("there are segments");
-    Measured { point, nearest, distance }
+    FarPoint { point, nearest, distance }
 }
 
 /// A search by branch and bound.
 struct FarthestSearch<'a> {
     others: &'a Segments,
     /// The farthest point found so far.
-    best: Measured,
+    best: FarPoint,
     /// No point that was searched is farther.
     upper: f64,
     /// Rounding errors of a distance, in world units.
@@ -70,7 +70,7 @@ impl FarthestSearch<'_> {
     /// Searches a part of an edge. The recursion ends: if a part is not done, the distances of its ends from
     /// the two nearest segments differ by more than the tolerance, so the point that divides it is at least
     /// half the tolerance away from both ends; and parts shorter than that are done.
-    fn search(&mut self, part: [Measured; 2]) {
+    fn search(&mut self, part: [FarPoint; 2]) {
         let mut parts = vec![part];
         while let Some([a, b]) = parts.pop() {
             let bound = self.bound([a, b]);
@@ -89,7 +89,7 @@ impl FarthestSearch<'_> {
     }
 
     /// No point between two is farther from the others than this.
-    fn bound(&self, [a, b]: [Measured; 2]) -> f64 {
+    fn bound(&self, [a, b]: [FarPoint; 2]) -> f64 {
         let by_nearest_to_a = a.distance.max(self.others.distance(a.nearest, b.point));
         let by_nearest_to_b = b.distance.max(self.others.distance(b.nearest, a.point));
         // A distance changes by no more than the distance between the points.
@@ -99,7 +99,7 @@ impl FarthestSearch<'_> {
 
     /// Returns a place between two points that is as far from the segment nearest to one as from that nearest
     /// to the other.
-    fn equidistant(&self, [a, b]: [Measured; 2]) -> DVec2 {
+    fn equidistant(&self, [a, b]: [FarPoint; 2]) -> DVec2 {
         let nearer_to_a = |share: f64| {
             let p = a.point.lerp(b.point, share);
             self.others.distance(a.nearest, p) < self.others.distance(b.nearest, p)

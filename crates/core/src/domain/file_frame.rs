@@ -38,7 +38,7 @@ impl FileFrame {
     ) -> Option<Self> {
         let rect = match in_degrees {
             true => {
-                let GeographicExtent { west, width, south, north, .. } = GeographicExtent::of_rings(rings)?;
+                let GeographicExtent { west, width, south, north, .. } = GeographicExtent::from_rings(rings)?;
                 Rect::new(DVec2::new(west, south), DVec2::new(west + width, north))
             }
             false => Rect::holding(rings.flatten().copied())?,

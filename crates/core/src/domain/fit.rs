@@ -49,7 +49,8 @@ impl BoundaryTreatment {
         }
     }
 
-    /// Returns the nodes on the outline, and a diameter that is quick and shows the shape.
+    /// Returns the default treatment: nodes on the outline, and a diameter that is quick to mesh and shows
+    /// the shape.
     pub fn usual(spacing: f64) -> Self {
         Self::OnOutline { diameter: Self::usual_diameter(spacing) }
     }
@@ -125,8 +126,8 @@ pub struct DomainOnLattice {
 }
 
 impl DomainOnLattice {
-    /// Indexes a domain on a lattice that covers its bounds, in one go. Only a region can be fitted; a
-    /// formula is met as in the report.
+    /// Indexes a domain on a lattice that covers its bounds, in one step. Only a region can be fitted; a
+    /// formula is treated as in the report.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
     }
@@ -250,8 +251,8 @@ impl DomainOnLattice {
         Ok(by_field()? && !region.lies_outside(corners, level))
     }
 
-    /// Does the work of [`Self::exceeds_at`] for all triangles within a triangle at once, as far as it can be
-    /// known.
+    /// Does the work of [`Self::exceeds_at`] for all triangles within a triangle at once, as far as their
+    /// answers are known.
     pub(crate) fn levels_within(
         &self,
         corners: [LatticePoint; 3],
@@ -261,11 +262,11 @@ impl DomainOnLattice {
         let Some(region) = self.region.as_ref().filter(|_| self.is_fitted()) else { return by_field() };
         match region.side_of(corners, level) {
             Some(true) => by_field(),
-            Some(false) => LevelsWithin::of_one(level, false),
+            Some(false) => LevelsWithin::single(level, false),
             None => {
                 let by_field = || Ok::<_, Infallible>(by_field().exceeds(level) == Some(true));
                 let Ok(exceeds) = self.exceeds_at(corners, level, by_field);
-                LevelsWithin::of_one(level, exceeds)
+                LevelsWithin::single(level, exceeds)
             }
         }
     }

@@ -45,8 +45,8 @@ pub struct FitQuality {
 }
 
 impl FitQuality {
-    /// Compares the extract that files get with the region of its domain. Takes time in proportion to the
-    /// triangles, and to n log n of the edges of boundary and outline.
+    /// Compares the extract that files get with the region of its domain. Takes time proportional to the
+    /// triangles, and to n log n for the n edges of boundary and outline.
     pub fn of(extract: &Extract, region: &Region, ground: &Ground) -> Self {
         let mut comparison = FitComparison::new(extract, region, ground);
         loop {
@@ -59,7 +59,7 @@ impl FitQuality {
 
 /// The work of [`FitQuality::of`], in steps. Region and ground are the same in all of them.
 pub struct FitComparison {
-    step: Step,
+    step: FitComparisonStep,
     /// The boundary of the mesh.
     loops: Vec<Ring>,
     /// Its edges, and those of the outline.
@@ -69,7 +69,7 @@ pub struct FitComparison {
 
 /// What is done next.
 #[derive(Clone, Copy)]
-enum Step {
+enum FitComparisonStep {
     Holes,
     Areas,
     FromOutline,
@@ -103,36 +103,36 @@ impl FitComparison {
             smallest_angle,
             largest_angle,
         };
-        Self { step: Step::Holes, loops, edges, quality }
+        Self { step: FitComparisonStep::Holes, loops, edges, quality }
     }
 
     /// Takes the next step. Returns the comparison after the last one.
     pub fn advance(&mut self, region: &Region, ground: &Ground) -> Option<FitQuality> {
         let Self { step, loops, edges: [boundary, outline], quality } = self;
         *step = match *step {
-            Step::Holes => {
+            FitComparisonStep::Holes => {
                 let HoleComparison { lost, new } = compare_holes(region, loops);
                 let on_ground =
                     |holes: Vec<HoleFigures>| holes.into_iter().map(|hole| hole.on_ground(ground)).collect();
                 (quality.lost_islands, quality.new_holes) = (on_ground(lost), on_ground(new));
-                Step::Areas
+                FitComparisonStep::Areas
             }
-            Step::Areas => {
+            FitComparisonStep::Areas => {
                 let only_one = region.overlaid(loops, OverlayRule::Xor, FillRule::EvenOdd);
                 let area = only_one.rings().map(|ring| ground.signed_area(ring)).sum::<f64>();
                 // The empty sum is -0.
                 quality.misclassified_area = area.max(0.0);
-                Step::FromOutline
+                FitComparisonStep::FromOutline
             }
-            Step::FromOutline => {
+            FitComparisonStep::FromOutline => {
                 quality.farthest_from_outline = farthest_from(boundary, outline, ground);
-                Step::FromMesh
+                FitComparisonStep::FromMesh
             }
-            Step::FromMesh => {
+            FitComparisonStep::FromMesh => {
                 quality.farthest_from_mesh = farthest_from(outline, boundary, ground);
-                Step::Done
+                FitComparisonStep::Done
             }
-            Step::Done => return Some(quality.clone()),
+            FitComparisonStep::Done => return Some(quality.clone()),
         };
         None
     }

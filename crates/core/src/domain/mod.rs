@@ -51,7 +51,7 @@ pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::{FitComparison, FitQuality};
 pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
-pub(crate) use outline::Outline;
+pub(crate) use outline::RegionOutline;
 pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners};
 pub use sea::{Land, Sea, SeaError, WaterSide};
@@ -281,22 +281,22 @@ impl Domain {
         Some(move |at| reprojection.from.beside(reprojection.from_plane(at), center))
     }
 
-    /// Returns the longest that a length in the plane is on the Earth, anywhere in the bounds; the same
+    /// Returns an upper bound, over the bounds, of what a length in the plane is on the Earth; the same
     /// length without a projection.
     pub fn longest_on_earth(&self, length: f64) -> f64 {
         let least = self.least_scale();
         if (least - 1.0).abs() < TRUE_TO_SCALE { length } else { length / least }
     }
 
-    /// Returns a scale that is nowhere less in the bounds; 1 without a projection.
+    /// Returns a lower bound of the scale in the bounds; 1 without a projection.
     pub fn least_scale(&self) -> f64 {
         self.projection.map_or(1.0, |projection| projection.least_scale_in(&self.bounds))
     }
 
-    /// Returns about the greatest scale in the bounds; 1 without a projection.
+    /// Returns approximately the largest scale in the bounds; 1 without a projection.
     pub fn greatest_scale(&self) -> f64 {
         let Some(projection) = self.projection else { return 1.0 };
-        let extent = GeographicExtent::of_plane(&projection, self.bounds);
+        let extent = GeographicExtent::from_plane(&projection, self.bounds);
         // The scale has no greatest value but on the rim.
         extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
     }

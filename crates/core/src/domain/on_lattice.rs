@@ -126,7 +126,7 @@ impl RegionOnLattice {
             SquareState::Crossed => {}
         }
         // In a crossed square the edges decide, and without an edge at the triangle any of its points.
-        let triangle = TriangleExtents::of(corners);
+        let triangle = TriangleExtents::new(corners);
         if self.crossed_within(depth, square, corners, &triangle, counts) {
             Relation::Crossed
         } else {

@@ -11,19 +11,19 @@ use crate::geometry::Rect;
 /// The edges of a region in world units, but for distances without those along the sides of its frame: they
 /// are where the data ends.
 #[derive(Clone, Debug)]
-pub(crate) struct Outline {
+pub(crate) struct RegionOutline {
     edges: Segments,
     /// For each edge, whether it is not along a side of the frame.
     is_inner: Vec<bool>,
     frame: Rect,
 }
 
-/// An edge at a side of the frame is no farther from it than this part of the frame.
+/// An edge along a side of the frame is at most this share of the frame away from it.
 const BESIDE: f64 = 1e-9;
 /// A point at a side is taken to be this part of the frame inside.
 const WITHIN: f64 = 1e-13;
 
-impl Outline {
+impl RegionOutline {
     /// Returns the outline; `None` where the region is all of its frame.
     pub(crate) fn new(region: &Region) -> Option<Self> {
         let frame = region.frame();
@@ -89,7 +89,7 @@ mod tests {
         let frame = Rect::new(DVec2::ZERO, DVec2::splat(4.0));
         let sea =
             Region::new(&[vec![square(0.0, 4.0), square(2.0, 3.0)]], frame).without(&[square(0.0, 1.0)]);
-        let outline = Outline::new(&sea).unwrap();
+        let outline = RegionOutline::new(&sea).unwrap();
         for (point, is_covered) in [
             (dvec2(0.5, 0.5), false),
             (dvec2(1.5, 0.5), true),
@@ -105,6 +105,6 @@ mod tests {
         };
         assert!((distance(dvec2(3.9, 0.1)) - 2.9_f64.min(0.9_f64.hypot(1.9))).abs() < 1e-9, "not 0.1");
         assert!((distance(dvec2(0.1, 3.5)) - 2.0).abs() < 0.6);
-        assert!(Outline::new(&Region::new(&[vec![square(0.0, 4.0)]], frame)).is_none());
+        assert!(RegionOutline::new(&Region::new(&[vec![square(0.0, 4.0)]], frame)).is_none());
     }
 }

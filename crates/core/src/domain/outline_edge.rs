@@ -19,7 +19,7 @@ pub(super) struct TriangleExtents {
 }
 
 impl TriangleExtents {
-    pub(super) fn of(corners: [LatticePoint; 3]) -> Self {
+    pub(super) fn new(corners: [LatticePoint; 3]) -> Self {
         let places = corners.map(|p| [i64::from(p.x), i64::from(p.y)]);
         let along = |measure: fn([i64; 2]) -> i64| {
             let [a, b, c] = places.map(measure);

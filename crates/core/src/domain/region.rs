@@ -43,13 +43,13 @@ impl Region {
     ///
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
-        Self::of_simple(frame, Self::covered(polygons, frame)).on_earth(&OutlineOnEarth::default())
+        Self::from_simple_polygons(frame, Self::covered(polygons, frame)).on_earth(&OutlineOnEarth::default())
     }
 
     /// Returns the polygons of the region that others cover, as [`Self::new`] does.
     pub(super) fn covered(polygons: &[Polygon], frame: Rect) -> Vec<Polygon> {
         let grid = Grid::over(&frame);
-        let simple: Vec<Shape> = polygons
+        let simple: Vec<IntShape> = polygons
             .iter()
             .filter_map(|rings| {
                 grid.contours(rings).split_first().map(|(outer, holes)| {
@@ -58,7 +58,7 @@ impl Region {
             })
             .flatten()
             .collect();
-        let contours: Vec<Contour> = simple.into_iter().flatten().collect();
+        let contours: Vec<IntContour> = simple.into_iter().flatten().collect();
         Self::cut_to_frame(&grid, &contours).polygons
     }
 
@@ -76,7 +76,7 @@ impl Region {
     /// Another overlay would move a corner here and there, where edges nearly touch. So valid polygons are
     /// not overlaid.
     pub(super) fn stored(polygons: Vec<Polygon>, frame: Rect) -> Self {
-        let stored = Self::of_simple(frame, polygons);
+        let stored = Self::from_simple_polygons(frame, polygons);
         let grid = Grid::over(&frame);
         let on_grid = |ring: &Ring| grid.contour(ring).iter().zip(ring).all(|(p, q)| grid.world(p) == *q);
         let turned = |rings: &Polygon| {
@@ -93,7 +93,7 @@ impl Region {
         if valid { stored.on_earth(&OutlineOnEarth::default()) } else { Self::new(&stored.polygons, frame) }
     }
 
-    fn of_simple(frame: Rect, polygons: Vec<Polygon>) -> Self {
+    fn from_simple_polygons(frame: Rect, polygons: Vec<Polygon>) -> Self {
         let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum();
         Self { frame, polygons, area, cuts: Vec::new() }
     }
@@ -102,14 +102,14 @@ impl Region {
     /// bounding rectangle; and the one by which its outline was cut before.
     pub(super) fn on_earth(self, on_earth: &OutlineOnEarth) -> Self {
         let bounds = Rect::holding(self.rings().flatten().copied());
-        let chosen = (bounds != Some(self.frame)).then(|| CutFrame::of_world(self.frame));
+        let chosen = (bounds != Some(self.frame)).then(|| CutFrame::from_world(self.frame));
         if on_earth.frame.is_some() {
             let known = CutFrame::of_region(&self, on_earth);
             return Self { cuts: known.into_iter().collect(), ..self };
         }
         let is_alone = chosen.is_none() || *on_earth != OutlineOnEarth::default();
         let found = is_alone.then(|| CutFrame::of_region(&self, on_earth)).flatten();
-        // The bounding rectangle of what a chosen frame leaves was chosen by nobody.
+        // Nobody chose the bounding rectangle of what a chosen frame leaves.
         let found = found.filter(|found| chosen.is_none() || found.coordinates.is_some());
         let cuts = chosen.into_iter().chain(found).collect();
         Self { cuts, ..self }
@@ -141,7 +141,7 @@ impl Region {
         sides
     }
 
-    fn cut_to_frame(grid: &Grid, contours: &[Contour]) -> Self {
+    fn cut_to_frame(grid: &Grid, contours: &[IntContour]) -> Self {
         grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], OverlayOperation::BOTH))
     }
 
@@ -241,7 +241,7 @@ impl Region {
     fn combined(&self, rings: &[Ring], rule: OverlayOperation) -> Self {
         let grid = Grid::over(&self.frame);
         let frame = [grid.contour(&corners(&self.frame))];
-        let within: Vec<Contour> =
+        let within: Vec<IntContour> =
             overlay(&grid.contours(rings), &frame, OverlayOperation::BOTH).into_iter().flatten().collect();
         grid.region(overlay(&grid.contours_of(self), &within, rule)).cut_by(self.cuts.clone())
     }
@@ -253,7 +253,7 @@ impl Region {
         let is_met =
             |cut: &&CutFrame| cut.sides(&rings, size).into_iter().flatten().any(|side| side.is_some());
         let earlier: Vec<CutFrame> = self.cuts.iter().filter(is_met).cloned().collect();
-        let chosen = CutFrame::of_world(frame);
+        let chosen = CutFrame::from_world(frame);
         let is_chosen = reframed.cuts.contains(&chosen) && !earlier.contains(&chosen);
         reframed.cut_by(earlier.into_iter().chain(is_chosen.then_some(chosen)).collect())
     }
@@ -316,8 +316,8 @@ fn perimeter(ring: &[DVec2]) -> f64 {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum()
 }
 
-type Contour = Vec<IntPoint<i64>>;
-type Shape = Vec<Contour>;
+type IntContour = Vec<IntPoint<i64>>;
+type IntShape = Vec<IntContour>;
 
 /// Which points belong to the result of an overlay.
 #[derive(Clone, Copy)]
@@ -336,10 +336,10 @@ impl OverlayOperation {
 }
 
 fn overlay(
-    first: &[Contour],
-    second: &[Contour],
+    first: &[IntContour],
+    second: &[IntContour],
     OverlayOperation(rule, fill): OverlayOperation,
-) -> Vec<Shape> {
+) -> Vec<IntShape> {
     let corners = first.iter().chain(second).map(Vec::len).sum();
     // As the OGC standard requires: a hole that touches another ring at one point stays a hole.
     let mut overlay = Overlay::new_custom(corners, IntOverlayOptions::ogc(), Solver::default());
@@ -370,7 +370,7 @@ impl Grid {
         Self { frame: *frame, steps, step: frame.size() / steps }
     }
 
-    fn contour(&self, ring: &[DVec2]) -> Contour {
+    fn contour(&self, ring: &[DVec2]) -> IntContour {
         let nearest = |p: &DVec2| {
             // Points far outside the frame are clipped later anyway.
             let steps = ((*p - self.frame.min) / self.step).clamp(DVec2::splat(-1e12), DVec2::splat(1e12));
@@ -379,11 +379,11 @@ impl Grid {
         ring.iter().map(nearest).collect()
     }
 
-    fn contours(&self, rings: &[Ring]) -> Vec<Contour> {
+    fn contours(&self, rings: &[Ring]) -> Vec<IntContour> {
         rings.iter().map(|ring| self.contour(ring)).collect()
     }
 
-    fn contours_of(&self, region: &Region) -> Vec<Contour> {
+    fn contours_of(&self, region: &Region) -> Vec<IntContour> {
         region.rings().map(|ring| self.contour(ring)).collect()
     }
 
@@ -396,18 +396,18 @@ impl Grid {
     }
 
     /// Returns a square around the frame that does not touch it.
-    fn contour_around(&self) -> Contour {
+    fn contour_around(&self) -> IntContour {
         let (low, high) = (-8, self.steps as i64 + 8);
         [[low, low], [high, low], [high, high], [low, high]].map(|[x, y]| IntPoint::new(x, y)).to_vec()
     }
 
-    fn polygons(&self, shapes: &[Shape]) -> Vec<Polygon> {
-        let ring = |contour: &Contour| contour.iter().map(|p| self.world(p)).collect();
+    fn polygons(&self, shapes: &[IntShape]) -> Vec<Polygon> {
+        let ring = |contour: &IntContour| contour.iter().map(|p| self.world(p)).collect();
         shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect()
     }
 
-    fn region(&self, shapes: Vec<Shape>) -> Region {
-        Region::of_simple(self.frame, self.polygons(&shapes))
+    fn region(&self, shapes: Vec<IntShape>) -> Region {
+        Region::from_simple_polygons(self.frame, self.polygons(&shapes))
     }
 }
 

@@ -24,7 +24,7 @@ use crate::text::{Grouped, Number};
 
 /// The share of the length of lines that agrees, at least, on which side is the sea.
 const AGREEMENT: f64 = 0.9;
-/// How far beside an edge a point is that tells its side, as a share of the edge.
+/// How far from an edge the point is that tells its side, as a share of the edge.
 const BESIDE: f64 = 1e-6;
 /// Ends of lines that a sentence names.
 const NAMED_ENDS: usize = 5;

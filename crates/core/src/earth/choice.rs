@@ -62,7 +62,7 @@ pub enum ProjectionError {
 
 /// Why a known system is no plane for a mesh.
 const NO_PLANE: &str = "it does not keep angles on the ellipsoid";
-/// Why a code is of no use.
+/// Why a code cannot be used.
 const NOT_KNOWN: &str = "its code is not known here";
 
 /// Largest ratio of two scales in an extent.
@@ -151,7 +151,7 @@ fn suited(kind: ProjectionKind, extent: &GeographicExtent) -> Result<Projection,
 }
 
 impl Projection {
-    /// Returns about the least and the greatest scale in an extent.
+    /// Returns approximately the minimum and the maximum scale in an extent.
     pub fn scale_range(&self, extent: &GeographicExtent) -> [f64; 2] {
         let share = |n: u32| f64::from(n) / f64::from(SAMPLES - 1);
         let places = (0..SAMPLES * SAMPLES).map(|n| {

@@ -8,7 +8,7 @@ use crate::geometry::Rect;
 
 /// A cone whose tip is at the north pole; mirrored for the south.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cone {
+pub(super) struct ProjectionCone {
     /// 1 for the north, −1 for the south.
     mirror: f64,
     /// Angles around the tip are n times the longitudes.
@@ -19,7 +19,7 @@ pub(super) struct Cone {
     origin: f64,
 }
 
-impl Cone {
+impl ProjectionCone {
     /// The plane that touches or cuts the Earth around a pole, true to scale at a latitude of its half.
     pub(super) fn polar(true_latitude: f64) -> Self {
         let mirror = 1.0_f64.copysign(true_latitude);

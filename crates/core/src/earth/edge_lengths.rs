@@ -76,7 +76,7 @@ impl EdgeLengths {
         self.scale.as_ref().map_or(1.0, |scale| scale.greatest())
     }
 
-    /// Returns the bands of the least and the greatest scale in the square of 2^bits lattice steps that is
+    /// Returns the bands of the minimum and the maximum scale in the square of 2^bits lattice steps that is
     /// number `place` along x and y.
     pub fn bands_in(&self, bits: u32, place: [u32; 2]) -> [usize; 2] {
         self.scale.as_ref().map_or([0; 2], |scale| scale.bands_in(bits, place))

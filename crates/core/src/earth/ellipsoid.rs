@@ -68,7 +68,7 @@ pub(super) fn degrees_from_conformal(conformal: f64) -> f64 {
     if !tangent.is_finite() {
         return 90.0_f64.copysign(conformal);
     }
-    // Two steps are enough for double precision; the others are for certainty.
+    // Two steps are enough for double precision; the others are a safeguard.
     for _ in 0..5 {
         let error = conformal - conformal_tangent(tangent);
         let slope = (1.0 - E2) * libm::hypot(1.0, conformal_tangent(tangent)) * libm::hypot(1.0, tangent)

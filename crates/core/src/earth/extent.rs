@@ -26,7 +26,7 @@ impl GeographicExtent {
     ///
     /// Longitudes may be from −180 to 180 or from 0 to 360. An edge goes the shorter way round the Earth. The
     /// extent leaves out the widest range of longitudes without corners.
-    pub fn of_rings<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> Option<Self> {
+    pub fn from_rings<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> Option<Self> {
         let corners = || rings.clone().flatten();
         let mut longitudes: Vec<f64> = corners().map(|corner| wrapped(corner.x)).collect();
         longitudes.sort_by(f64::total_cmp);
@@ -48,25 +48,25 @@ impl GeographicExtent {
 
     /// Returns the extent of a rectangle in the plane of a projection; `None` where the projection has no
     /// longitude and latitude for its sides.
-    pub fn of_plane(projection: &Projection, area: Rect) -> Option<Self> {
-        Self::of_rectangle(&Coordinates::Plane(*projection), area)
+    pub fn from_plane(projection: &Projection, area: Rect) -> Option<Self> {
+        Self::from_rectangle(&Coordinates::Plane(*projection), area)
     }
 
     /// Returns the extent of rings in any coordinates; `None` without corners, and where the coordinates are
     /// of no place on the Earth.
-    pub fn of_coordinates<'a>(
+    pub fn from_coordinates<'a>(
         coordinates: &Coordinates,
         rings: impl Iterator<Item = &'a [DVec2]> + Clone,
     ) -> Option<Self> {
         // Other geographic systems are shifted by less than a kilometre.
         if coordinates.are_degrees() {
-            return Self::of_rings(rings);
+            return Self::from_rings(rings);
         }
-        Self::of_rectangle(coordinates, Rect::holding(rings.flatten().copied())?)
+        Self::from_rectangle(coordinates, Rect::holding(rings.flatten().copied())?)
     }
 
     /// Returns the extent of a rectangle of coordinates.
-    fn of_rectangle(coordinates: &Coordinates, area: Rect) -> Option<Self> {
+    fn from_rectangle(coordinates: &Coordinates, area: Rect) -> Option<Self> {
         let Rect { min, max } = area;
         let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
         let side = |n: usize| {
@@ -75,7 +75,7 @@ impl GeographicExtent {
         };
         let places = (0..4).flat_map(side).map(|at| coordinates.to_geographic(at));
         let ring: Vec<DVec2> = places.filter(|at| at.is_finite()).collect();
-        let extent = Self::of_rings([ring.as_slice()].into_iter())?;
+        let extent = Self::from_rings([ring.as_slice()].into_iter())?;
         // The sides bulge between their points.
         let margin = (extent.north - extent.south).max(extent.width) / f64::from(POINTS_OF_SIDE);
         let [pole_south, pole_north] = [-90.0, 90.0].map(|pole| extent.pole == Some(pole));
@@ -123,7 +123,7 @@ mod tests {
 
     fn extent(corners: &[[f64; 2]]) -> GeographicExtent {
         let ring: Vec<DVec2> = corners.iter().map(|&corner| corner.into()).collect();
-        GeographicExtent::of_rings([ring.as_slice()].into_iter()).unwrap()
+        GeographicExtent::from_rings([ring.as_slice()].into_iter()).unwrap()
     }
 
     #[test]
@@ -145,14 +145,14 @@ mod tests {
                 pole / 90.0 * 70.0
             );
             let projection = text.parse::<Projection>().unwrap();
-            let extent = GeographicExtent::of_rectangle(&Coordinates::Plane(projection), rect).unwrap();
+            let extent = GeographicExtent::from_rectangle(&Coordinates::Plane(projection), rect).unwrap();
             assert_eq!((extent.pole, extent.width), (Some(pole), 360.0));
             let ends = [extent.south, extent.north];
             assert!(ends.contains(&pole) && ends.iter().all(|end| end.signum() == pole.signum()), "{ends:?}");
             assert!(ends.iter().any(|end| (70.0..85.0).contains(&end.abs())), "{ends:?}");
             // Beside the pole, the margin does not reach beyond it.
             let beside = Rect::new(DVec2::new(1e3, -1e6), DVec2::splat(1e6));
-            let extent = GeographicExtent::of_rectangle(&Coordinates::Plane(projection), beside).unwrap();
+            let extent = GeographicExtent::from_rectangle(&Coordinates::Plane(projection), beside).unwrap();
             assert!(extent.pole.is_none() && [extent.south, extent.north].contains(&pole), "{extent:?}");
         }
     }
@@ -172,7 +172,7 @@ mod tests {
             };
             let area = Rect::new(corner(0.0, 0.0), corner(0.0, 0.0))
                 .union(&Rect::new(corner(1.0, 1.0), corner(1.0, 1.0)));
-            let found = GeographicExtent::of_plane(&projection, area).unwrap();
+            let found = GeographicExtent::from_plane(&projection, area).unwrap();
             for _ in 0..200 {
                 let share = dvec2(random.f64(), random.f64());
                 let at = projection.geographic_from_plane(area.min + share * area.size());
@@ -185,12 +185,12 @@ mod tests {
     #[test]
     fn a_ring_around_a_pole_is_recognised() {
         let around: Vec<DVec2> = (0..36).map(|n| dvec2(wrapped(10.0 * f64::from(n)), -65.0)).collect();
-        let found = GeographicExtent::of_rings([around.as_slice()].into_iter()).unwrap();
+        let found = GeographicExtent::from_rings([around.as_slice()].into_iter()).unwrap();
         assert_eq!((found.pole, found.width), (Some(-90.0), 360.0));
         // As files have it: along the edge of a map in degrees.
         let mut cut: Vec<DVec2> = (-18..=18).map(|n| dvec2(10.0 * f64::from(n), -65.0)).collect();
         cut.extend([dvec2(180.0, -90.0), dvec2(-180.0, -90.0)]);
-        let found = GeographicExtent::of_rings([cut.as_slice()].into_iter()).unwrap();
+        let found = GeographicExtent::from_rings([cut.as_slice()].into_iter()).unwrap();
         assert_eq!((found.pole, found.width, found.south), (Some(-90.0), 360.0, -90.0));
         let globe = extent(&[[-180.0, -75.0], [180.0, -75.0], [180.0, 75.0], [-180.0, 75.0]]);
         assert_eq!((globe.pole, globe.width), (None, 360.0));

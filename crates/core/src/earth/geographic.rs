@@ -128,8 +128,7 @@ impl GeographicSystem {
         Self { code: None, ellipsoid, prime_meridian: 0.0, unit: 1.0, shift: None, accuracy }
     }
 
-    /// Returns the coordinates that these are: plain longitudes and latitudes where the system is close to
-    /// WGS 84.
+    /// Returns these as coordinates: plain longitudes and latitudes where the system is close to WGS 84.
     pub fn coordinates(self) -> Coordinates {
         let is_plain = self.prime_meridian == 0.0 && self.is_in_degrees();
         let is_close = self.shift.is_none_or(|shift| shift == [0.0; 7])
@@ -142,12 +141,12 @@ impl GeographicSystem {
         (self.unit - 1.0).abs() < 1e-9
     }
 
-    /// Returns the unit of longitudes and latitudes, as far as there is a name for it.
+    /// Returns the unit of longitudes and latitudes, if it has a name.
     pub fn length_unit(&self) -> LengthUnit {
         if self.is_in_degrees() { LengthUnit::Degree } else { LengthUnit::None }
     }
 
-    /// Returns whether how far places may be off is not known but for its order.
+    /// Returns whether only the order of magnitude of the error of places is known.
     pub fn is_uncertain(&self) -> bool {
         self.accuracy >= UNKNOWN_SHIFT
     }

@@ -27,8 +27,8 @@ pub struct GraticuleLine {
     pub points: Vec<DVec2>,
 }
 
-/// Returns the meridians and parallels of round numbers across an area of a plane: from 4 to 11 of each. None
-/// where so few cannot be told apart.
+/// Returns the meridians and parallels of round numbers across an area of a plane: from 4 to 11 of each; none
+/// where the area is too small to distinguish even these.
 pub fn graticule(plane: EarthPlane, area: Rect) -> Vec<GraticuleLine> {
     let Some(extent) = extent(plane, area) else { return Vec::new() };
     let lines = |is_meridian: bool| {
@@ -43,7 +43,7 @@ pub fn graticule(plane: EarthPlane, area: Rect) -> Vec<GraticuleLine> {
     lines(true).chain(lines(false)).collect()
 }
 
-/// Returns the longitudes and latitudes of an area. Longitudes go on beyond 180° where the area does.
+/// Returns the longitudes and latitudes of an area. Longitudes continue beyond 180° where the area does.
 fn extent(plane: EarthPlane, area: Rect) -> Option<Rect> {
     let EarthPlane::Projected(projection) = plane else {
         return Some(Rect::new(area.min.max(dvec2(-720.0, -90.0)), area.max.min(dvec2(720.0, 90.0))));
@@ -87,7 +87,7 @@ fn points(plane: EarthPlane, extent: Rect, is_meridian: bool, degrees: f64) -> V
     in_plane.filter(|at| at.is_finite()).collect()
 }
 
-/// Returns a longitude or latitude of so many minutes with the digits that its step has: `5° 30′ W`.
+/// Returns a longitude or latitude, given in minutes, with the digits that its step has: `5° 30′ W`.
 fn label(minutes: f64, step: f64, is_meridian: bool) -> String {
     let decimals = (0..9).find(|&n| (step * libm::exp10(f64::from(n))).fract() < 1e-9).unwrap_or(9);
     let minutes = if is_meridian { 60.0 * wrapped(minutes / 60.0) } else { minutes };
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn lines_of_a_projection_are_meridians_and_parallels_through_the_area() {
         let corners = [dvec2(-7.0, 47.0), dvec2(0.0, 47.0), dvec2(0.0, 52.0), dvec2(-7.0, 52.0)];
-        let extent = GeographicExtent::of_rings(std::iter::once(&corners[..])).unwrap();
+        let extent = GeographicExtent::from_rings(std::iter::once(&corners[..])).unwrap();
         let projection = ProjectionChoice::Automatic.projection(&extent).unwrap();
         let plane = EarthPlane::Projected(projection);
         let area = Rect::new(dvec2(-238_000.0, 5_219_000.0), dvec2(238_000.0, 5_763_000.0));

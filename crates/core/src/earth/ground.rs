@@ -45,7 +45,8 @@ impl Ground {
         }
     }
 
-    /// Returns a length that no line of a length in the plane exceeds, from a point in any direction.
+    /// Returns an upper bound of the length on the ground of lines with a given length in the plane that
+    /// start at a point.
     pub fn longest(&self, length: f64, from: DVec2) -> f64 {
         self.inverse_scale
             .as_ref()

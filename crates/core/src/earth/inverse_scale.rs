@@ -6,7 +6,7 @@ use glam::{DVec2, dvec2};
 use rayon::prelude::*;
 
 use super::Projection;
-use super::squares::Squares;
+use super::squares::SquareGrid;
 use crate::geometry::Rect;
 
 /// The inverse scale 1/k over a rectangle, with bounds of its values and of its derivatives.
@@ -33,7 +33,7 @@ pub struct InverseScale {
     /// One more around the corners of all cells, row by row from the lowest.
     values: Vec<f64>,
     /// Bounds in each cell, then in squares of 2 × 2 of them, and so on up to one square.
-    squares: Vec<Squares<SquareBounds>>,
+    squares: Vec<SquareGrid<SquareBounds>>,
 }
 
 /// What holds in a square.
@@ -41,7 +41,7 @@ pub struct InverseScale {
 struct SquareBounds {
     least: f64,
     greatest: f64,
-    /// No second derivative, along x, along y or mixed, is greater or less than its negative.
+    /// Bound of the absolute values of the second derivatives: along x, along y and mixed.
     curvature: f64,
 }
 
@@ -77,7 +77,7 @@ impl InverseScale {
         let mut inverse = Self { origin, side, cells, values, squares: Vec::new() };
         let places = (0..cells[1]).flat_map(|row| (0..cells[0]).map(move |column| [column, row]));
         let bounds = places.map(|cell| inverse.bounds_in(cell)).collect();
-        inverse.squares = Squares::new(cells[0], bounds).pyramid(SquareBounds::joined);
+        inverse.squares = SquareGrid::new(cells[0], bounds).pyramid(SquareBounds::joined);
         inverse
     }
 
@@ -90,7 +90,7 @@ impl InverseScale {
         dot(weights(v), rows)
     }
 
-    /// Returns bounds of the inverse scale over a rectangle of the plane: the least and the greatest.
+    /// Returns bounds of the inverse scale over a rectangle of the plane: [minimum, maximum].
     pub fn range(&self, rectangle: &Rect) -> [f64; 2] {
         let (within, [width, height]) = self.within(rectangle);
         let (around, center) = (self.bounds_over(&within), within.center());
@@ -103,8 +103,8 @@ impl InverseScale {
         [least * (1.0 - ROUNDING), greatest * (1.0 + ROUNDING)]
     }
 
-    /// Returns bounds of the derivatives along x and y over a rectangle of the plane, each as the least and
-    /// the greatest. `None` where they are not known.
+    /// Returns bounds of the derivatives along x and y over a rectangle of the plane, each as [minimum,
+    /// maximum]. `None` where they are not known.
     pub fn slopes(&self, rectangle: &Rect) -> Option<[[f64; 2]; 2]> {
         let (within, [width, height]) = self.within(rectangle);
         let around = self.bounds_over(&within);
@@ -191,7 +191,7 @@ impl InverseScale {
         if !bent.is_finite() || corners.iter().any(|value| value.is_nan()) {
             return SquareBounds { least: 0.0, greatest: f64::INFINITY, curvature: f64::INFINITY };
         }
-        // From a straight line, a curve departs by the eighth part of that along each axis.
+        // Along each axis, a curve deviates from a straight line by at most an eighth of that.
         SquareBounds {
             least: corners.into_iter().fold(f64::INFINITY, f64::min) - 0.25 * bent,
             greatest: corners.into_iter().fold(f64::NEG_INFINITY, f64::max) + 0.25 * bent,

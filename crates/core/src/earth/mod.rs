@@ -31,7 +31,7 @@ mod transverse;
 use glam::{DVec2, dvec2};
 
 use crate::geometry::Rect;
-use cone::Cone;
+use cone::ProjectionCone;
 use ellipsoid::{A, Latitude, degrees_from_conformal};
 use transverse::Transverse;
 
@@ -123,27 +123,33 @@ pub struct Projection {
     parameters: Parameters,
     /// What is added to the coordinates in the plane, in metres: false easting and false northing.
     origin: DVec2,
-    plane: Plane,
+    plane: ProjectionConstants,
 }
 
 /// The constants of the formulas.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Plane {
+enum ProjectionConstants {
     /// The radius of the cylinder, in metres.
     Cylinder(f64),
     Transverse(Transverse),
-    Cone(Cone),
+    Cone(ProjectionCone),
 }
 
 impl Projection {
     fn new(central_meridian: f64, parameters: Parameters) -> Self {
         let plane = match parameters {
             Parameters::Mercator { true_latitude } => {
-                Plane::Cylinder(A * Latitude::from_degrees(true_latitude).parallel())
+                ProjectionConstants::Cylinder(A * Latitude::from_degrees(true_latitude).parallel())
             }
-            Parameters::TransverseMercator { scale } => Plane::Transverse(Transverse::new(scale)),
-            Parameters::PolarStereographic { true_latitude } => Plane::Cone(Cone::polar(true_latitude)),
-            Parameters::Lambert { origin, parallels } => Plane::Cone(Cone::lambert(origin, parallels)),
+            Parameters::TransverseMercator { scale } => {
+                ProjectionConstants::Transverse(Transverse::new(scale))
+            }
+            Parameters::PolarStereographic { true_latitude } => {
+                ProjectionConstants::Cone(ProjectionCone::polar(true_latitude))
+            }
+            Parameters::Lambert { origin, parallels } => {
+                ProjectionConstants::Cone(ProjectionCone::lambert(origin, parallels))
+            }
         };
         Self { central_meridian, parameters, origin: DVec2::ZERO, plane }
     }
@@ -172,13 +178,13 @@ impl Projection {
     fn forward(&self, at: DVec2) -> (DVec2, f64) {
         let east = self.east(at.x);
         let (plane, scale) = match &self.plane {
-            Plane::Cylinder(radius) => {
+            ProjectionConstants::Cylinder(radius) => {
                 let latitude = Latitude::from_degrees(at.y);
                 let up = libm::asinh(latitude.conformal);
                 (radius * dvec2(east.to_radians(), up), radius / (A * latitude.parallel()))
             }
-            Plane::Transverse(transverse) => transverse.forward(east, at.y),
-            Plane::Cone(cone) => cone.forward(east, at.y),
+            ProjectionConstants::Transverse(transverse) => transverse.forward(east, at.y),
+            ProjectionConstants::Cone(cone) => cone.forward(east, at.y),
         };
         (plane + self.origin, scale)
     }
@@ -204,9 +210,9 @@ impl Projection {
     pub(crate) fn least_scale_in(&self, rect: &Rect) -> f64 {
         let nearest = DVec2::ZERO.clamp(rect.min - self.origin, rect.max - self.origin);
         match (&self.plane, self.parameters) {
-            (Plane::Transverse(_), Parameters::TransverseMercator { scale }) => scale,
+            (ProjectionConstants::Transverse(_), Parameters::TransverseMercator { scale }) => scale,
             // Grows away from the equator.
-            (Plane::Cone(cone), _) => {
+            (ProjectionConstants::Cone(cone), _) => {
                 cone.least_scale_in(&Rect::new(rect.min - self.origin, rect.max - self.origin))
             }
             _ => self.scale_in_plane(nearest + self.origin),
@@ -217,12 +223,12 @@ impl Projection {
     pub fn geographic_from_plane(&self, at: DVec2) -> DVec2 {
         let at = at - self.origin;
         let from_center = match &self.plane {
-            Plane::Cylinder(radius) => {
+            ProjectionConstants::Cylinder(radius) => {
                 let [east, up] = (at / *radius).to_array();
                 dvec2(east.to_degrees(), degrees_from_conformal(libm::sinh(up)))
             }
-            Plane::Transverse(transverse) => transverse.inverse(at),
-            Plane::Cone(cone) => cone.inverse(at),
+            ProjectionConstants::Transverse(transverse) => transverse.inverse(at),
+            ProjectionConstants::Cone(cone) => cone.inverse(at),
         };
         dvec2(wrapped(from_center.x + self.central_meridian), from_center.y)
     }

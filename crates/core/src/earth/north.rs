@@ -7,7 +7,7 @@ const HALF_PIECE: f64 = 1e-4;
 
 impl Projection {
     /// Returns the direction to the north at a point in the plane, as a vector of length 1: that of the
-    /// meridian there. A pole has none.
+    /// meridian there. There is none at a pole.
     pub fn north_at(&self, at: DVec2) -> Option<DVec2> {
         let place = self.geographic_from_plane(at);
         if place.is_nan() || place.y.abs() > 90.0 - 10.0 * HALF_PIECE {

@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     fn projected(rings: &[Vec<DVec2>]) -> (Projection, Vec<Vec<DVec2>>) {
-        let extent = GeographicExtent::of_rings(rings.iter().map(Vec::as_slice)).unwrap();
+        let extent = GeographicExtent::from_rings(rings.iter().map(Vec::as_slice)).unwrap();
         let projection = ProjectionChoice::Automatic.projection(&extent).unwrap();
         let polygons: Vec<_> = rings.iter().map(|ring| vec![ring.clone()]).collect();
         let reprojection = Reprojection { from: Coordinates::Geographic, to: projection };

@@ -6,7 +6,7 @@ use super::{EarthPlane, wrapped};
 
 /// The mean radius of the Earth in metres: programs that draw routes take it for a sphere.
 const RADIUS: f64 = 6_371_008.8;
-/// Points between which a line is longer than this angle, in radians, get one between them in any case.
+/// Between two points farther apart than this angle, in radians, a point is always added.
 const LONGEST: f64 = 0.03;
 /// Places between two points at which the distance is measured, as shares.
 const MEASURED: [f64; 3] = [0.25, 0.5, 0.75];

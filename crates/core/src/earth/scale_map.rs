@@ -3,7 +3,7 @@
 use glam::{DVec2, dvec2};
 
 use super::Projection;
-use super::squares::Squares;
+use super::squares::SquareGrid;
 use crate::geometry::{Lattice, LatticePoint, Rect};
 
 /// Lower bounds of the scale k in the dyadic squares of a lattice.
@@ -28,7 +28,7 @@ pub struct ScaleMap {
     cells: Vec<Cell>,
     /// The first and the last band in squares of 2^bits steps, then in those twice as wide, up to one that
     /// holds the lattice.
-    larger: Vec<Squares<[u16; 2]>>,
+    larger: Vec<SquareGrid<[u16; 2]>>,
     bands: Bands,
 }
 
@@ -73,7 +73,7 @@ impl ScaleMap {
         let extent = lattice.extent();
         let bits = (extent.x.max(extent.y).max(1).ilog2() + 1).saturating_sub(CELLS_BITS);
         let [columns, rows] = [extent.x, extent.y].map(|side| side.div_ceil(1 << bits));
-        let samples = Samples::new(projection, lattice, bits, [columns, rows]);
+        let samples = ScaleSamples::new(projection, lattice, bits, [columns, rows]);
         let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
         let cells: Vec<Cell> =
             places.map(|place| samples.cell(place, samples.least_in(projection, place))).collect();
@@ -83,12 +83,12 @@ impl ScaleMap {
         map
     }
 
-    fn larger_squares(&self) -> Vec<Squares<[u16; 2]>> {
+    fn larger_squares(&self) -> Vec<SquareGrid<[u16; 2]>> {
         let side = 1 << self.bits;
         let of_cell = |cell: &Cell| {
             [self.bands.of_value(cell.least_in([0, 0], side)), self.bands.of_value(cell.greatest)]
         };
-        let cells = Squares::new(self.columns, self.cells.iter().map(of_cell).collect());
+        let cells = SquareGrid::new(self.columns, self.cells.iter().map(of_cell).collect());
         cells.pyramid(|a: [u16; 2], b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
@@ -97,7 +97,7 @@ impl ScaleMap {
         usize::from(self.bands.count)
     }
 
-    /// Returns a scale that is nowhere exceeded, but in corners of the lattice outside a domain.
+    /// Returns an upper bound of the scale, except in corners of the lattice outside a domain.
     pub fn greatest(&self) -> f64 {
         self.scale_of(self.band_count())
     }
@@ -121,7 +121,7 @@ impl ScaleMap {
         usize::from(self.bands.of_value(cell.least_in(offset, 1 << bits)))
     }
 
-    /// Returns the bands of the least and the greatest scale in such a square.
+    /// Returns the bands of the minimum and the maximum scale in such a square.
     pub fn bands_in(&self, bits: u32, place: [u32; 2]) -> [usize; 2] {
         let around = self.larger_at(bits, place.map(|place| place >> self.bits.saturating_sub(bits)));
         [self.band_in(bits, place), usize::from(around[1])]
@@ -155,7 +155,7 @@ impl Cell {
 }
 
 impl Bands {
-    /// Returns the bands for cells with sides of so many lattice steps.
+    /// Returns the bands for cells with sides of `side` lattice steps.
     fn of(cells: &[Cell], side: u32) -> Self {
         let least = cells.iter().map(|cell| cell.least_in([0, 0], side)).fold(f64::INFINITY, f64::min);
         let greatest = cells.iter().map(|cell| cell.greatest).fold(least, f64::max);
@@ -172,7 +172,7 @@ impl Bands {
 }
 
 /// ln k at the corners, the middles of the sides, and the centres of cells.
-struct Samples {
+struct ScaleSamples {
     origin: DVec2,
     /// Half a cell in world units.
     half: DVec2,
@@ -182,7 +182,7 @@ struct Samples {
     side: f64,
 }
 
-impl Samples {
+impl ScaleSamples {
     fn new(projection: &Projection, lattice: &Lattice, bits: u32, cells: [u32; 2]) -> Self {
         let (origin, side) = (lattice.bounds().min, f64::from(1u32 << bits));
         let half = 0.5 * side * lattice.step();

@@ -2,13 +2,13 @@
 
 /// Values in squares, row by row from the lowest.
 #[derive(Debug)]
-pub(super) struct Squares<T> {
+pub(super) struct SquareGrid<T> {
     columns: u32,
     values: Vec<T>,
 }
 
-impl<T: Copy> Squares<T> {
-    /// Returns the values of squares in so many columns.
+impl<T: Copy> SquareGrid<T> {
+    /// Returns the values of squares in `columns` columns.
     pub fn new(columns: u32, values: Vec<T>) -> Self {
         Self { columns, values }
     }

@@ -52,12 +52,12 @@ const FARTHEST: f64 = 1e8;
 
 /// The numbers of a text.
 #[derive(Default)]
-struct Words {
+struct ProjParameters {
     kind: Option<ProjectionKind>,
     numbers: Vec<(String, f64)>,
 }
 
-impl Words {
+impl ProjParameters {
     fn parse(text: &str) -> Result<Self, String> {
         let mut words = Self::default();
         for word in text.split_whitespace() {
@@ -138,7 +138,7 @@ impl FromStr for Projection {
     type Err = ProjectionTextError;
 
     fn from_str(text: &str) -> Result<Self, ProjectionTextError> {
-        let parsed = Words::parse(text).and_then(|words| words.projection());
+        let parsed = ProjParameters::parse(text).and_then(|words| words.projection());
         parsed.map_err(|problem| ProjectionTextError::new(text, problem))
     }
 }

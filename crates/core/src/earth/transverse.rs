@@ -7,10 +7,10 @@ use glam::{DVec2, dvec2};
 use super::ellipsoid::{A, F, Latitude, degrees_from_conformal};
 
 /// Coefficients of powers of n, for each multiple of the angle.
-type Series = [[f64; 6]; 6];
+type KruegerSeries = [[f64; 6]; 6];
 
 /// From the conformal sphere to the ellipsoid, Eq. (35).
-const ALPHA: Series = [
+const ALPHA: KruegerSeries = [
     [0.5, -2.0 / 3.0, 5.0 / 16.0, 41.0 / 180.0, -127.0 / 288.0, 7_891.0 / 37_800.0],
     [0.0, 13.0 / 48.0, -3.0 / 5.0, 557.0 / 1_440.0, 281.0 / 630.0, -1_983_433.0 / 1_935_360.0],
     [0.0, 0.0, 61.0 / 240.0, -103.0 / 140.0, 15_061.0 / 26_880.0, 167_603.0 / 181_440.0],
@@ -20,7 +20,7 @@ const ALPHA: Series = [
 ];
 
 /// The way back, Eq. (36).
-const BETA: Series = [
+const BETA: KruegerSeries = [
     [0.5, -2.0 / 3.0, 37.0 / 96.0, -1.0 / 360.0, -81.0 / 512.0, 96_199.0 / 604_800.0],
     [0.0, 1.0 / 48.0, 1.0 / 15.0, -437.0 / 1_440.0, 46.0 / 105.0, -1_118_711.0 / 3_870_720.0],
     [0.0, 0.0, 17.0 / 480.0, -37.0 / 840.0, -209.0 / 4_480.0, 5_569.0 / 90_720.0],
@@ -75,7 +75,7 @@ impl Transverse {
 }
 
 /// Returns the coefficients for the flattening of the Earth.
-fn summed(series: &Series) -> [f64; 6] {
+fn summed(series: &KruegerSeries) -> [f64; 6] {
     series.map(|row| row.into_iter().rev().fold(0.0, |sum, coefficient| N * (sum + coefficient)))
 }
 

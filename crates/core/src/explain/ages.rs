@@ -68,8 +68,8 @@ impl Ages {
         }
     }
 
-    /// Returns the triangles that are no longer in their entry, with the edits that made them, in order of
-    /// place: the last entry fills a gap, so some of them are in another entry now.
+    /// Returns the triangles that are no longer in their entry, with the edits that made them, ordered by
+    /// place. Gaps are filled with the last entries, so some of them are in another entry now.
     fn gone(&self, changes: &Changes, mesh: &Mesh) -> Vec<(PositionKey, u32)> {
         let (known, end) = (self.known.len(), mesh.raw_triangle_count());
         let changed = changes.triangles.iter().flat_map(|range| range.start..range.end.min(known));

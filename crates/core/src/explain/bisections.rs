@@ -44,7 +44,7 @@ pub enum Witness {
 impl Bisections {
     /// Returns the bisections of a mesh that is up to date with a criterion and limits.
     pub fn of(mesh: &Mesh, criterion: &RefinementCriterion<'_>, limits: &Limits) -> Self {
-        let leaves: Vec<_> = mesh.triangles().map(|(id, _)| TreeTriangle::of(mesh, id)).collect();
+        let leaves: Vec<_> = mesh.triangles().map(|(id, _)| TreeTriangle::from_mesh(mesh, id)).collect();
         let (mut coarse, mut bisected, mut known) = (Vec::new(), Vec::new(), HashSet::new());
         for leaf in &leaves {
             if leaf.level() == 0 {

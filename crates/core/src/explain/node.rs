@@ -29,7 +29,7 @@ impl NodeFacts {
     ///
     /// # Panics
     /// Panics when the id is not of this mesh.
-    pub fn of(mesh: &Mesh, node: NodeId) -> Self {
+    pub fn new(mesh: &Mesh, node: NodeId) -> Self {
         let at = mesh.node(node);
         let adjacent = adjacent(mesh, node);
         let here = mesh.world(node);
@@ -59,7 +59,7 @@ fn adjacent(mesh: &Mesh, node: NodeId) -> Vec<NodeId> {
 /// Returns a triangle whose bisection made the node.
 fn maker(mesh: &Mesh, node: NodeId) -> Option<TreeTriangle> {
     let (at, lattice) = (mesh.node(node), mesh.lattice());
-    let leaf = TreeTriangle::of(mesh, mesh.triangles_around(node).next()?);
+    let leaf = TreeTriangle::from_mesh(mesh, mesh.triangles_around(node).next()?);
     let mut line = leaf.ancestors(lattice);
     line.push(leaf);
     // The first triangle with this corner, from the coarse one down, has it as its apex: it is half of the
@@ -68,8 +68,7 @@ fn maker(mesh: &Mesh, node: NodeId) -> Option<TreeTriangle> {
     first.parent(lattice)
 }
 
-/// Returns the nodes in the middle of the halves of the triangle and of the one across, as far as they are
-/// there.
+/// Returns the nodes in the middle of the halves of the triangle and of the one across, if they exist.
 fn dependents(mesh: &Mesh, parent: &TreeTriangle) -> Vec<LatticePoint> {
     let pair = [Some(*parent), parent.across(mesh)];
     let halves = pair.iter().flatten().flat_map(TreeTriangle::children);
@@ -98,7 +97,7 @@ mod tests {
         let adjacency = mesh.adjacency();
         let mut with_dependents = 0;
         for (node, at) in mesh.nodes() {
-            let facts = NodeFacts::of(&mesh, node);
+            let facts = NodeFacts::new(&mesh, node);
             let mut adjacent = facts.adjacent.clone();
             adjacent.sort();
             let mut row = adjacency.of(node).to_vec();

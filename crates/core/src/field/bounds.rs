@@ -82,7 +82,7 @@ impl Bounds {
     }
 
     /// Returns bounds from the results at the ends of the intervals. Some of these may be NaN.
-    pub(super) fn of_results(results: &[f64], valid: bool) -> Self {
+    pub(super) fn from_results(results: &[f64], valid: bool) -> Self {
         let numbers = results.iter().filter(|result| !result.is_nan()).map(|&result| Self::one(result));
         numbers.reduce(Self::union).unwrap_or(Self::ANYTHING).valid_if(valid)
     }
@@ -142,7 +142,7 @@ impl Bounds {
         // A product 0 · ∞ is NaN. The other products bound the rest: there is also a product of 0 and a
         // number, or all products at the ends are infinite.
         let [a, b, c, d] = [self.least, self.greatest, other.least, other.greatest];
-        Self::of_results(&[a * c, a * d, b * c, b * d], valid)
+        Self::from_results(&[a * c, a * d, b * c, b * d], valid)
     }
 
     pub(super) fn over(self, other: Self) -> Self {
@@ -154,7 +154,7 @@ impl Bounds {
             return Self { valid, ..Self::ANYTHING };
         }
         let [a, b, c, d] = [self.least, self.greatest, other.least, other.greatest];
-        Self::of_results(&[a / c, a / d, b / c, b / d], valid)
+        Self::from_results(&[a / c, a / d, b / c, b / d], valid)
     }
 
     /// Returns the smaller of two values, NaN if either is.

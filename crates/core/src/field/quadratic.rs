@@ -51,7 +51,7 @@ impl Quadratic {
     }
 
     /// Returns a function of which bounds are known.
-    pub fn of_bounds(Bounds { least, greatest, valid }: Bounds) -> Self {
+    pub fn from_bounds(Bounds { least, greatest, valid }: Bounds) -> Self {
         if !(valid && least.is_finite() && greatest.is_finite()) {
             return Self::UNKNOWN;
         }
@@ -324,7 +324,7 @@ impl Quadratic {
         if self.rest <= linear + bend {
             return self;
         }
-        let other = Self::of_bounds(bounds());
+        let other = Self::from_bounds(bounds());
         if other.rest < self.rest { other } else { self }
     }
 }

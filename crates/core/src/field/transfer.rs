@@ -137,7 +137,7 @@ pub struct TransferTable {
 }
 
 const STEPS: usize = 2048;
-/// Ranges of so many steps or fewer are bounded by the curve itself.
+/// Ranges of at most this number of steps are bounded by the curve itself.
 const NARROW: usize = 8;
 /// The curve is rounded by less than this share: `pow` by an ulp, and the exponent in it by another one,
 /// times a logarithm below 710.

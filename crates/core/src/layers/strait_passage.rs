@@ -78,7 +78,7 @@ struct Water {
 
 impl Water {
     fn new(domain: &Domain, marks: &BoundaryMarks) -> Self {
-        let coasts = Coasts::of(domain, marks);
+        let coasts = Coasts::new(domain, marks);
         let mut before = vec![None; coasts.edges.len()];
         for (number, edge) in coasts.edges.iter().enumerate() {
             if let Some(next) = edge.next {

@@ -42,7 +42,7 @@ impl StraitSearch {
     /// Begins to look for the straits of a domain, between the coasts that marks leave.
     pub(crate) fn new(domain: &Domain, marks: &BoundaryMarks, between: [f64; 2]) -> Self {
         let in_plane = [between[0] * domain.least_scale(), between[1] * domain.greatest_scale()];
-        let finder = Finder::new(Coasts::of(domain, marks), domain.bounds, in_plane);
+        let finder = Finder::new(Coasts::new(domain, marks), domain.bounds, in_plane);
         let (region, marks) = (domain.region().cloned(), marks.of_coasts());
         Self { region, marks, between, finder, next: 0, found: Vec::new() }
     }

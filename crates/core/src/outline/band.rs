@@ -38,7 +38,7 @@ pub(super) struct Band {
 
 /// The place of a triangle of the mesh that may differ in the derived mesh.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Place {
+pub(super) enum BandPlace {
     /// It has this number in the band.
     InBand(u32),
     /// The outline touches it beside the band, and its nodes are on this side.
@@ -71,9 +71,9 @@ impl Band {
         touched: &[TriangleId],
     ) -> (Self, [N; 2]) {
         let AtOutline { active, signs } = AtOutline::<N>::new(mesh, region, touched);
-        let mut near = Near::<N>::new(mesh);
+        let mut near = RingSearch::<N>::new(mesh);
         near.grow_from(mesh, &active, RINGS);
-        let Near { nodes, triangles: mut ids, is_triangle, .. } = near;
+        let RingSearch { nodes, triangles: mut ids, is_triangle, .. } = near;
         let (points, node_ids) = sorted_by_points(mesh, &nodes);
         let mut numbers = N::for_entries(mesh.raw_nodes().len());
         node_ids.iter().zip(0..).for_each(|(id, number)| _ = numbers.set(id.index(), number));
@@ -97,13 +97,13 @@ impl Band {
     }
 
     /// Returns the triangles of the mesh that may differ in the derived mesh, in no order.
-    pub(super) fn triangles_by_id(&self) -> Vec<(TriangleId, Place)> {
-        let in_band = self.ids.iter().zip(0..).map(|(&id, t)| (id, Place::InBand(t)));
-        let beside = self.touched.iter().map(|&(id, inside)| (id, Place::Beside { inside }));
+    pub(super) fn triangles_by_id(&self) -> Vec<(TriangleId, BandPlace)> {
+        let in_band = self.ids.iter().zip(0..).map(|(&id, t)| (id, BandPlace::InBand(t)));
+        let beside = self.touched.iter().map(|&(id, inside)| (id, BandPlace::Beside { inside }));
         in_band.chain(beside).collect()
     }
 
-    /// Returns nodes and those within so many rings of triangles around them.
+    /// Returns nodes and those within `rings` rings of triangles around them.
     pub(super) fn near(&self, nodes: &[u32], rings: usize) -> Vec<u32> {
         let mut is_near = vec![false; self.points.len()];
         nodes.iter().for_each(|&v| is_near[v as usize] = true);
@@ -160,14 +160,14 @@ impl<N: Numbers> AtOutline<N> {
 }
 
 /// Triangles and nodes near others, found ring by ring.
-struct Near<N> {
+struct RingSearch<N> {
     nodes: Vec<NodeId>,
     triangles: Vec<TriangleId>,
     is_node: N,
     is_triangle: N,
 }
 
-impl<N: Numbers> Near<N> {
+impl<N: Numbers> RingSearch<N> {
     fn new(mesh: &Mesh) -> Self {
         Self {
             nodes: Vec::new(),
@@ -177,7 +177,7 @@ impl<N: Numbers> Near<N> {
         }
     }
 
-    /// Adds so many rings of triangles around nodes.
+    /// Adds `rings` rings of triangles around nodes.
     fn grow_from(&mut self, mesh: &Mesh, nodes: &[NodeId], rings: usize) {
         nodes.iter().for_each(|&node| self.add_node(node));
         let mut first = 0;

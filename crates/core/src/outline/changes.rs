@@ -6,12 +6,12 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::angles::Angles;
-use super::band::{Band, GRAIN, Place};
+use super::band::{Band, BandPlace, GRAIN};
 use super::corners::{Pin, TurningCorners};
 use super::fitting::Fitting;
 use super::patchwork::Patchwork;
 use super::stages::Watch;
-use super::stencil::Placement;
+use super::stencil::NodePlacement;
 use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
@@ -56,26 +56,26 @@ impl OutlineChanges {
     /// Finds the changes that put the nodes of the boundary on the outline of a region, and tells `watch` of
     /// each stage.
     pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
-        let outline = Outline::new(mesh.lattice(), region);
+        let outline = OutlineOnLattice::new(mesh.lattice(), region);
         let fitted = FittedBand::whole(mesh, region, &outline, watch);
-        Self::of_fitted(mesh, &outline, &fitted)
+        Self::from_fitted(mesh, &outline, &fitted)
     }
 
     /// Returns the changes of a whole band that was put on an outline.
-    pub(super) fn of_fitted(mesh: &Mesh, outline: &Outline, fitted: &FittedBand) -> Self {
+    pub(super) fn from_fitted(mesh: &Mesh, outline: &OutlineOnLattice, fitted: &FittedBand) -> Self {
         fitted.with_patch(fitted.patch(mesh, outline), outline)
     }
 }
 
 /// An outline, with what all nodes along it ask about.
-pub(super) struct Outline<'a> {
+pub(super) struct OutlineOnLattice<'a> {
     pub(super) region: &'a RegionOnLattice,
     pub(super) lattice: Lattice,
     pub(super) angles: Angles,
     pub(super) corners: Arc<TurningCorners>,
 }
 
-impl<'a> Outline<'a> {
+impl<'a> OutlineOnLattice<'a> {
     pub(super) fn new(lattice: &Lattice, region: &'a RegionOnLattice) -> Self {
         let angles = Angles::new(lattice.step());
         let corners = TurningCorners::new(region, lattice.extent(), &angles);
@@ -98,20 +98,31 @@ pub(super) struct FittedBand {
     pub(super) patchwork: Patchwork,
     /// The corners of the outline that are nodes.
     pub(super) pins: Vec<Pin>,
-    pub(super) placement: Placement,
+    pub(super) placement: NodePlacement,
 }
 
 impl FittedBand {
-    /// Puts the nodes of the whole band on the outline, and tells `watch` of each stage.
-    pub(super) fn whole(mesh: &Mesh, region: &RegionOnLattice, outline: &Outline, watch: Watch<'_>) -> Self {
+    /// Puts the nodes of the whole band on the outline, and notifies `watch` of each stage.
+    pub(super) fn whole(
+        mesh: &Mesh,
+        region: &RegionOnLattice,
+        outline: &OutlineOnLattice,
+        watch: Watch<'_>,
+    ) -> Self {
         let band = Band::new(mesh, region);
         let zone = vec![true; band.points.len()];
         Self::new(mesh, band, zone, outline, watch)
     }
 
-    /// Puts the nodes of a band on the outline, and tells `watch` of each stage. Beginning with the retreat,
-    /// only nodes of the `zone` are moved and only edges near them flipped.
-    pub(super) fn new(mesh: &Mesh, band: Band, zone: Vec<bool>, outline: &Outline, watch: Watch<'_>) -> Self {
+    /// Puts the nodes of a band on the outline, and notifies `watch` of each stage. Beginning with the
+    /// retreat, only nodes of the `zone` are moved and only edges near them flipped.
+    pub(super) fn new(
+        mesh: &Mesh,
+        band: Band,
+        zone: Vec<bool>,
+        outline: &OutlineOnLattice,
+        watch: Watch<'_>,
+    ) -> Self {
         let mut fitting = Fitting::new(band, zone);
         loop {
             match fitting.advance(mesh, outline, watch) {
@@ -122,25 +133,30 @@ impl FittedBand {
     }
 
     /// Returns the differences from the mesh.
-    pub(super) fn patch(&self, mesh: &Mesh, outline: &Outline) -> MeshPatch {
+    pub(super) fn patch(&self, mesh: &Mesh, outline: &OutlineOnLattice) -> MeshPatch {
         patch(mesh, &self.band, &self.patchwork, &outline.angles)
     }
 
     /// Returns the changes, given the differences from the mesh.
-    pub(super) fn with_patch(&self, patch: MeshPatch, outline: &Outline) -> OutlineChanges {
+    pub(super) fn with_patch(&self, patch: MeshPatch, outline: &OutlineOnLattice) -> OutlineChanges {
         let corner_limit = self.pins.iter().map(|pin| pin.limit).fold(0.0, f64::max);
         OutlineChanges { patch, fit: self.fit(outline), corner_limit }
     }
 
     /// Returns the fit of all nodes.
-    fn fit(&self, outline: &Outline) -> OutlineFit {
+    fn fit(&self, outline: &OutlineOnLattice) -> OutlineFit {
         let all = (0..self.patchwork.points.len() as u32).into_par_iter().with_min_len(GRAIN);
         let fits = all.map_init(Vec::new, |star, v| self.fit_of(outline, v, star));
         fits.reduce(OutlineFit::default, OutlineFit::joined)
     }
 
     /// Returns the fit of one node: of none, if it is not on the boundary.
-    pub(super) fn fit_of(&self, outline: &Outline, node: u32, star: &mut Vec<(u32, usize)>) -> OutlineFit {
+    pub(super) fn fit_of(
+        &self,
+        outline: &OutlineOnLattice,
+        node: u32,
+        star: &mut Vec<(u32, usize)>,
+    ) -> OutlineFit {
         let (patchwork, v) = (&self.patchwork, node as usize);
         patchwork.triangles.star(node, star);
         // Nodes that lie only along the frame have no triangles outside around them.
@@ -188,7 +204,7 @@ pub(super) fn moved<'a>(
 /// The outline is searched within a lattice step first, then within four times as much, up to more than the
 /// diagonal of the lattice. The search finds an edge: a node that can be off the outline is at an edge that
 /// the outline crosses, and an edge of the outline along a side of the grid crosses none.
-fn distance(point: LatticePoint, outline: &Outline) -> f64 {
+fn distance(point: LatticePoint, outline: &OutlineOnLattice) -> f64 {
     let (p, step) = (point.as_dvec2(), outline.angles.step());
     let diagonal = (outline.lattice.extent().as_dvec2() * step).length();
     let reaches =
@@ -206,11 +222,11 @@ pub(super) fn patch(mesh: &Mesh, band: &Band, patchwork: &Patchwork, angles: &An
     let pieces = PiecesByTriangle::new(band, patchwork);
     let in_band = |t: u32| pieces.replacement(mesh, band, patchwork, angles, t);
     let found = places.into_par_iter().with_min_len(GRAIN).filter_map(|(id, place)| match place {
-        Place::InBand(t) => {
+        BandPlace::InBand(t) => {
             let corners = |(_, corners): (u32, [u32; 3])| corners.map(|v| node_id(mesh, band, v));
             Some((id, in_band(t)?.into_iter().map(corners).collect()))
         }
-        Place::Beside { inside } => Some((id, beside(mesh, id, inside)?)),
+        BandPlace::Beside { inside } => Some((id, beside(mesh, id, inside)?)),
     });
     let found: Vec<(TriangleId, Vec<[NodeId; 3]>)> = found.collect();
     let mut patch = MeshPatch { added, moved, ..MeshPatch::default() };

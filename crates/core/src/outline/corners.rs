@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::angles::Angles;
 use super::band::{Band, GRAIN};
 use super::flat::has_sector;
-use super::snap::Side;
-use super::stencil::Placement;
+use super::snap::OutlineSide;
+use super::stencil::NodePlacement;
 use super::triangulation::NONE;
 use crate::domain::RegionOnLattice;
 use crate::geometry::LatticePoint;
@@ -19,8 +19,8 @@ use crate::mesh::Mesh;
 const COT_12: f64 = 4.704_630_109_478_455;
 /// The cosine of 30°, the smallest turn of a sharp corner.
 const COS_30: f64 = 0.866_025_403_784_438_6;
-/// A node that goes to a corner is at most a leg away after it moved to the outline, by half an edge at most.
-/// This many legs allow for a triangle beside it that is one level coarser.
+/// A node that moves to a corner is at most a leg away from it, after it moved to the outline by at most half
+/// an edge. This many legs allow for an adjacent triangle that is one level coarser.
 const CORNER_LEGS: f64 = 2.5;
 /// Smallest ratio of a chord to the length of outline along it for which the outline counts as nearly
 /// straight.
@@ -40,13 +40,13 @@ pub(super) struct Pin {
 
 impl Pin {
     /// Moves the node to the corner.
-    pub(super) fn apply(&self, placement: &mut Placement) {
+    pub(super) fn apply(&self, placement: &mut NodePlacement) {
         placement.goals[self.node as usize] = self.at;
         placement.pinned[self.node as usize] = true;
     }
 
     /// Moves the node back to its former position.
-    pub(super) fn undo(&self, placement: &mut Placement) {
+    pub(super) fn undo(&self, placement: &mut NodePlacement) {
         placement.goals[self.node as usize] = self.former;
         placement.pinned[self.node as usize] = false;
         placement.acted[self.node as usize] = true;
@@ -54,7 +54,7 @@ impl Pin {
 }
 
 /// A node on the boundary of the domain, with the leg of its triangles in world units.
-struct Candidate {
+struct CornerCandidate {
     point: LatticePoint,
     node: u32,
     leg: f64,
@@ -80,10 +80,10 @@ impl TurningCorners {
         let along_frame =
             |p, q| on_sides(p, extent).into_iter().zip(on_sides(q, extent)).any(|both| both == (true, true));
         let all = rings.par_iter().enumerate().flat_map_iter(|(n, ring)| {
-            let corners = (0..ring.len()).map(move |place| Corner { ring, place });
+            let corners = (0..ring.len()).map(move |place| RingCorner { ring, place });
             corners.filter(|corner| corner.turns(angles)).map(move |corner| (n, corner))
         });
-        let is_free = |(_, corner): &(usize, Corner)| {
+        let is_free = |(_, corner): &(usize, RingCorner)| {
             ![false, true].into_iter().any(|forwards| along_frame(corner.at(), corner.next(forwards).at()))
         };
         let all = all.filter(is_free).map(|(n, corner)| (corner.at(), [n as u32, corner.place as u32]));
@@ -99,7 +99,7 @@ impl TurningCorners {
         &self,
         mesh: &Mesh,
         band: &Band,
-        placement: &mut Placement,
+        placement: &mut NodePlacement,
         angles: &Angles,
     ) {
         let all = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
@@ -115,7 +115,7 @@ impl TurningCorners {
         &self,
         mesh: &Mesh,
         band: &Band,
-        placement: &Placement,
+        placement: &NodePlacement,
         angles: &Angles,
         node: u32,
     ) -> Vec<u32> {
@@ -145,8 +145,8 @@ impl TurningCorners {
         near.filter(|&v| placement.is_at_outline(band, v, &mut star)).collect()
     }
 
-    fn corner(&self, [ring, place]: [u32; 2]) -> Corner<'_> {
-        Corner { ring: &self.rings[ring as usize], place: place as usize }
+    fn corner(&self, [ring, place]: [u32; 2]) -> RingCorner<'_> {
+        RingCorner { ring: &self.rings[ring as usize], place: place as usize }
     }
 
     /// Returns the corners at most so far from a point, in world units.
@@ -169,7 +169,7 @@ impl TurningCorners {
     }
 
     /// Returns the corners that are within the leg of a candidate, in the order of the outline.
-    fn near(&self, candidates: &[Candidate], angles: &Angles) -> Vec<Corner<'_>> {
+    fn near(&self, candidates: &[CornerCandidate], angles: &Angles) -> Vec<RingCorner<'_>> {
         let near = candidates.par_iter().with_min_len(GRAIN);
         let near = near.flat_map_iter(|candidate| self.within(candidate.point, candidate.leg, angles));
         let mut near: Vec<[u32; 2]> = near.collect();
@@ -186,12 +186,12 @@ fn on_sides(p: LatticePoint, extent: LatticePoint) -> [bool; 4] {
 
 /// A corner of the outline, given by the index of a point in a ring.
 #[derive(Clone, Copy)]
-struct Corner<'a> {
+struct RingCorner<'a> {
     ring: &'a [LatticePoint],
     place: usize,
 }
 
-impl<'a> Corner<'a> {
+impl<'a> RingCorner<'a> {
     fn at(self) -> LatticePoint {
         self.ring[self.place]
     }
@@ -248,18 +248,19 @@ impl<'a> Corner<'a> {
 pub(super) fn pins(
     mesh: &Mesh,
     band: &Band,
-    placement: &Placement,
+    placement: &NodePlacement,
     corners: &TurningCorners,
     angles: &Angles,
 ) -> Vec<Pin> {
     let on_frame = |p: LatticePoint| on_sides(p, corners.extent).contains(&true);
     let candidates = candidates(mesh, band, placement);
     let longest = candidates.iter().map(|candidate| candidate.leg).fold(0.0, f64::max);
-    let pin = |corner: &Corner| {
+    let pin = |corner: &RingCorner| {
         let at = corner.at();
         // Nodes of the frame stay there.
-        let may_move =
-            |candidate: &&Candidate| on_frame(at) || !on_frame(placement.homes[candidate.node as usize]);
+        let may_move = |candidate: &&CornerCandidate| {
+            on_frame(at) || !on_frame(placement.homes[candidate.node as usize])
+        };
         let (distance, nearest) = nearest(&candidates, at, longest, angles, may_move)?;
         let limit = corner.limit_if_sharp(nearest.leg, angles).filter(|_| distance <= nearest.leg)?;
         let former = placement.goals[nearest.node as usize];
@@ -273,11 +274,12 @@ pub(super) fn pins(
 }
 
 /// Returns the nodes on the boundary, sorted by their present positions; [`nearest`] relies on this order.
-fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate> {
+fn candidates(mesh: &Mesh, band: &Band, placement: &NodePlacement) -> Vec<CornerCandidate> {
     let mut legs = vec![0.0f64; placement.homes.len()];
     for (t, &id) in band.ids.iter().enumerate() {
         let leg = mesh.diameter(mesh.triangle(id).level()) / SQRT_2;
-        let corners = band.triangles.corners[t].iter().filter(|v| placement.sides[**v as usize] == Side::On);
+        let corners =
+            band.triangles.corners[t].iter().filter(|v| placement.sides[**v as usize] == OutlineSide::On);
         for &v in corners.chain(placement.cuts[t].iter().filter(|&&v| v != NONE)) {
             legs[v as usize] = legs[v as usize].max(leg);
         }
@@ -287,9 +289,9 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
         is_cut || [true, false].iter().all(|&inside| has_sector(band, placement, v, inside))
     };
     let all = (0..legs.len() as u32).into_par_iter().with_min_len(GRAIN);
-    let mut candidates: Vec<Candidate> = all
+    let mut candidates: Vec<CornerCandidate> = all
         .filter(|&v| legs[v as usize] > 0.0 && on_boundary(v))
-        .map(|node| Candidate { point: placement.goals[node as usize], node, leg: legs[node as usize] })
+        .map(|node| CornerCandidate { point: placement.goals[node as usize], node, leg: legs[node as usize] })
         .collect();
     candidates.par_sort_unstable_by_key(|candidate| (candidate.point, candidate.node));
     candidates
@@ -298,12 +300,12 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
 /// Returns, of the candidates that may move and are at most `reach` away along x (in world units), the
 /// nearest one to a point, with its distance. The candidates must be sorted by their points.
 fn nearest<'a>(
-    candidates: &'a [Candidate],
+    candidates: &'a [CornerCandidate],
     at: LatticePoint,
     reach: f64,
     angles: &Angles,
-    may_move: impl Fn(&&'a Candidate) -> bool,
-) -> Option<(f64, &'a Candidate)> {
+    may_move: impl Fn(&&'a CornerCandidate) -> bool,
+) -> Option<(f64, &'a CornerCandidate)> {
     let steps = (reach / angles.step().x).ceil();
     let first = (f64::from(at.x) - steps).max(0.0) as u32;
     let start = candidates.partition_point(|candidate| candidate.point.x < first);

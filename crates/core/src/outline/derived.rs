@@ -22,7 +22,8 @@ pub struct DerivedMesh {
 }
 
 impl DerivedMesh {
-    /// Derives the mesh. Time and memory grow with the mesh, and most with the triangles along the outline.
+    /// Derives the mesh. Time and memory grow with the mesh, and above all with the triangles along the
+    /// outline.
     pub fn new(mesh: &Mesh, domain: &DomainOnLattice, cleaning: &Cleaning) -> Self {
         Self::watched(mesh, domain, cleaning, &mut |_, _| {})
     }

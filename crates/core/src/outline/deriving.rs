@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::band::Band;
-use super::changes::{FittedBand, Outline, OutlineChanges};
+use super::changes::{FittedBand, OutlineChanges, OutlineOnLattice};
 use super::corners::TurningCorners;
 use super::fitting::Fitting;
 use super::follower_making::FollowerMaking;
@@ -12,7 +12,7 @@ use super::{DerivedMesh, OutlineFollower};
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Cleaning, Mesh, MeshPatch, Progress};
 
-/// A follower takes in so many triangles in a step.
+/// Number of triangles that a follower takes in per step.
 const AT_ONCE: usize = 4096;
 
 /// The work of [`DerivedMesh::new`], and of [`OutlineFollower::new`] where that is asked for: both from one
@@ -22,12 +22,12 @@ pub struct MeshDerivation {
     domain: DomainOnLattice,
     cleaning: Cleaning,
     follows: bool,
-    step: Step,
+    step: DerivationStep,
     derived: Option<DerivedMesh>,
     follower: Option<OutlineFollower>,
 }
 
-enum Step {
+enum DerivationStep {
     Begin,
     Band(Arc<TurningCorners>),
     Fit(Arc<TurningCorners>, Box<Fitting>),
@@ -42,7 +42,7 @@ impl MeshDerivation {
     /// Begins to derive a mesh; `follows` asks for its nodes on the outline, to be kept in step with the
     /// mesh.
     pub fn new(mesh: Arc<Mesh>, domain: DomainOnLattice, cleaning: Cleaning, follows: bool) -> Self {
-        Self { mesh, domain, cleaning, follows, step: Step::Begin, derived: None, follower: None }
+        Self { mesh, domain, cleaning, follows, step: DerivationStep::Begin, derived: None, follower: None }
     }
 
     /// Takes one step, which takes some milliseconds on a long coast.
@@ -50,51 +50,60 @@ impl MeshDerivation {
         self.advance_by(AT_ONCE)
     }
 
-    /// Takes one step, in which a follower takes in at most so many triangles.
+    /// Takes one step, in which a follower takes in at most `triangles` triangles.
     pub fn advance_by(&mut self, triangles: usize) -> Progress {
-        self.step = match (std::mem::replace(&mut self.step, Step::Done), self.domain.region_on_outline()) {
-            (Step::Done, _) => return Progress::Done,
-            (Step::Clean(changes, fitted), _) => {
+        self.step = match (
+            std::mem::replace(&mut self.step, DerivationStep::Done),
+            self.domain.region_on_outline(),
+        ) {
+            (DerivationStep::Done, _) => return Progress::Done,
+            (DerivationStep::Clean(changes, fitted), _) => {
                 self.derived = Some(DerivedMesh::cleaned(&self.mesh, changes, &self.cleaning));
-                fitted.map_or(Step::Done, |(corners, fitted)| Step::Follow(corners, fitted, None))
+                fitted.map_or(DerivationStep::Done, |(corners, fitted)| {
+                    DerivationStep::Follow(corners, fitted, None)
+                })
             }
-            (_, None) => Step::Clean(None, None),
-            (Step::Begin, Some(region)) => Step::Band(Outline::new(self.mesh.lattice(), region).corners),
-            (Step::Band(corners), Some(region)) => {
+            (_, None) => DerivationStep::Clean(None, None),
+            (DerivationStep::Begin, Some(region)) => {
+                DerivationStep::Band(OutlineOnLattice::new(self.mesh.lattice(), region).corners)
+            }
+            (DerivationStep::Band(corners), Some(region)) => {
                 let band = Band::new(&self.mesh, region);
                 let zone = vec![true; band.points.len()];
-                Step::Fit(corners, Box::new(Fitting::new(band, zone)))
+                DerivationStep::Fit(corners, Box::new(Fitting::new(band, zone)))
             }
-            (Step::Fit(corners, fitting), Some(region)) => {
-                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+            (DerivationStep::Fit(corners, fitting), Some(region)) => {
+                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
                 match fitting.advance(&self.mesh, &outline, &mut |_, _| {}) {
-                    ControlFlow::Continue(fitting) => Step::Fit(corners, Box::new(fitting)),
-                    ControlFlow::Break(fitted) => Step::Change(corners, Box::new(fitted)),
+                    ControlFlow::Continue(fitting) => DerivationStep::Fit(corners, Box::new(fitting)),
+                    ControlFlow::Break(fitted) => DerivationStep::Change(corners, Box::new(fitted)),
                 }
             }
-            (Step::Change(corners, fitted), Some(region)) => {
-                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+            (DerivationStep::Change(corners, fitted), Some(region)) => {
+                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
                 let patch = fitted.patch(&self.mesh, &outline);
-                Step::Measure(corners, fitted, patch)
+                DerivationStep::Measure(corners, fitted, patch)
             }
-            (Step::Measure(corners, fitted, patch), Some(region)) => {
-                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+            (DerivationStep::Measure(corners, fitted, patch), Some(region)) => {
+                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
                 let changes = fitted.with_patch(patch, &outline);
-                Step::Clean(Some(changes), self.follows.then_some((corners, fitted)))
+                DerivationStep::Clean(Some(changes), self.follows.then_some((corners, fitted)))
             }
-            (Step::Follow(corners, fitted, making), Some(region)) => {
-                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+            (DerivationStep::Follow(corners, fitted, making), Some(region)) => {
+                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
                 let begin = || Box::new(FollowerMaking::new(&self.mesh, &self.domain, &outline, &fitted));
                 match making.unwrap_or_else(begin).advance(&self.mesh, &outline, &fitted, triangles.max(1)) {
-                    ControlFlow::Continue(making) => Step::Follow(corners, fitted, Some(Box::new(making))),
+                    ControlFlow::Continue(making) => {
+                        DerivationStep::Follow(corners, fitted, Some(Box::new(making)))
+                    }
                     ControlFlow::Break(follower) => {
                         self.follower = Some(follower);
-                        Step::Done
+                        DerivationStep::Done
                     }
                 }
             }
         };
-        if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
+        if matches!(self.step, DerivationStep::Done) { Progress::Done } else { Progress::More }
     }
 
     /// Takes the mesh, once it is derived.

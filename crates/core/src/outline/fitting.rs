@@ -3,105 +3,105 @@
 use std::ops::ControlFlow;
 
 use super::band::{Band, signs};
-use super::changes::{FittedBand, Outline, moved, patch};
+use super::changes::{FittedBand, OutlineOnLattice, moved, patch};
 use super::corners::{Pin, pins};
 use super::flat::{drop_flat, pinched};
 use super::guard::Guard;
 use super::patchwork::Patchwork;
 use super::smooth::Smoother;
-use super::snap::{Crossings, Side, snapped};
+use super::snap::{Crossings, OutlineSide, snapped};
 use super::stages::{DerivationAction, Watch, without_outside};
-use super::stencil::Placement;
+use super::stencil::NodePlacement;
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, MeshPatch};
 
 /// Number of rounds of flips and moves that improve the angles.
 const ROUNDS: usize = 8;
 
-/// A band on its way to a [`FittedBand`]. Each step is work of about the same size: long coasts take many
-/// milliseconds for it.
+/// A band on its way to a [`FittedBand`]. All steps take about the same time, many milliseconds for long
+/// coasts.
 pub(super) struct Fitting {
     band: Band,
     /// The nodes that are moved, and near which edges are flipped, beginning with the retreat.
     zone: Vec<bool>,
-    stage: Stage,
+    stage: FittingStage,
 }
 
 /// What is done next.
-enum Stage {
+enum FittingStage {
     Snap,
     Place(Placing),
-    Pin(Placement),
-    Retreat(Placement, Vec<Pin>),
-    Divide(Placement, Vec<Pin>),
-    /// After so many steps of [`Pieces::improved`].
-    Improve(Box<Pieces>, usize),
+    Pin(NodePlacement),
+    Retreat(NodePlacement, Vec<Pin>),
+    Divide(NodePlacement, Vec<Pin>),
+    /// After this number of steps of [`FittedPieces::improved`].
+    Improve(Box<FittedPieces>, usize),
 }
 
 /// The pieces of the triangles, with what they were made of.
-struct Pieces {
+struct FittedPieces {
     patchwork: Patchwork,
     pins: Vec<Pin>,
-    placement: Placement,
+    placement: NodePlacement,
 }
 
 impl Fitting {
     pub(super) fn new(band: Band, zone: Vec<bool>) -> Self {
-        Self { band, zone, stage: Stage::Snap }
+        Self { band, zone, stage: FittingStage::Snap }
     }
 
     /// Takes the next step, and tells `watch` of a stage that it completes.
     pub(super) fn advance(
         self,
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         watch: Watch<'_>,
     ) -> ControlFlow<FittedBand, Self> {
         let Self { band, mut zone, stage } = self;
-        let Outline { region, angles, corners, .. } = outline;
+        let OutlineOnLattice { region, angles, corners, .. } = outline;
         let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
-        let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, angles));
+        let with_cuts = |placement: &NodePlacement| as_patch(&Patchwork::new(&band, placement, angles));
         let stage = match stage {
-            Stage::Snap => {
+            FittingStage::Snap => {
                 watch(DerivationAction::RemoveByCorners, &|| {
                     without_outside(mesh, &signs(mesh, region), Vec::new())
                 });
-                Stage::Place(Placing::new(&band, outline))
+                FittingStage::Place(Placing::new(&band, outline))
             }
-            Stage::Place(placing) => match placing.advance(&band, outline) {
-                ControlFlow::Continue(placing) => Stage::Place(placing),
+            FittingStage::Place(placing) => match placing.advance(&band, outline) {
+                ControlFlow::Continue(placing) => FittingStage::Place(placing),
                 ControlFlow::Break(placement) => {
                     watch(DerivationAction::MoveToOutline, &|| {
                         let moved = moved(&band, placement.goals.iter());
                         without_outside(mesh, &signs(mesh, region), moved)
                     });
                     watch(DerivationAction::CutEdges, &|| with_cuts(&placement));
-                    Stage::Pin(placement)
+                    FittingStage::Pin(placement)
                 }
             },
-            Stage::Pin(mut placement) => {
+            FittingStage::Pin(mut placement) => {
                 let pins = pins(mesh, &band, &placement, corners, angles);
                 corners.spread_actions(mesh, &band, &mut placement, angles);
                 pins.iter().for_each(|pin| pin.apply(&mut placement));
                 watch(DerivationAction::MoveToCorners, &|| with_cuts(&placement));
-                Stage::Retreat(placement, pins)
+                FittingStage::Retreat(placement, pins)
             }
-            Stage::Retreat(mut placement, mut pins) => {
+            FittingStage::Retreat(mut placement, mut pins) => {
                 if retreat(&band, &zone, &mut placement, &mut pins, outline) {
                     watch(DerivationAction::Retreat, &|| with_cuts(&placement));
-                    Stage::Divide(placement, pins)
+                    FittingStage::Divide(placement, pins)
                 } else {
-                    Stage::Retreat(placement, pins)
+                    FittingStage::Retreat(placement, pins)
                 }
             }
-            Stage::Divide(placement, pins) => {
+            FittingStage::Divide(placement, pins) => {
                 let zone = std::mem::take(&mut zone);
                 let patchwork = Patchwork::in_zone(&band, &placement, angles, zone);
-                Stage::Improve(Box::new(Pieces { patchwork, pins, placement }), 0)
+                FittingStage::Improve(Box::new(FittedPieces { patchwork, pins, placement }), 0)
             }
-            Stage::Improve(pieces, step) => match pieces.improved(step, outline, watch, &as_patch) {
-                (pieces, Some(step)) => Stage::Improve(Box::new(pieces), step),
-                (Pieces { patchwork, pins, placement }, None) => {
+            FittingStage::Improve(pieces, step) => match pieces.improved(step, outline, watch, &as_patch) {
+                (pieces, Some(step)) => FittingStage::Improve(Box::new(pieces), step),
+                (FittedPieces { patchwork, pins, placement }, None) => {
                     return ControlFlow::Break(FittedBand { band, patchwork, pins, placement });
                 }
             },
@@ -110,13 +110,13 @@ impl Fitting {
     }
 }
 
-impl Pieces {
+impl FittedPieces {
     /// Takes a step for better angles: flips and moves in turn, and at last a pull to the outline. Returns
     /// the number of the next one.
     fn improved(
         mut self,
         step: usize,
-        Outline { region, lattice, angles, .. }: &Outline,
+        OutlineOnLattice { region, lattice, angles, .. }: &OutlineOnLattice,
         watch: Watch<'_>,
         as_patch: &dyn Fn(&Patchwork) -> MeshPatch,
     ) -> (Self, Option<usize>) {
@@ -144,22 +144,26 @@ impl Pieces {
 /// Moves nodes onto the outline, all at once. Nodes at which the domain would touch itself stay.
 struct Placing {
     crossings: Crossings,
-    sides: Vec<Side>,
+    sides: Vec<OutlineSide>,
     goals: Vec<LatticePoint>,
     acted: Vec<bool>,
 }
 
 impl Placing {
-    fn new(band: &Band, Outline { region, lattice, angles, .. }: &Outline) -> Self {
+    fn new(band: &Band, OutlineOnLattice { region, lattice, angles, .. }: &OutlineOnLattice) -> Self {
         let crossings = Crossings::new(band, region, lattice);
         let (sides, goals) = snapped(band, &crossings, angles);
         Self { crossings, sides, goals, acted: vec![false; band.points.len()] }
     }
 
     /// Moves the nodes, or finds out which of them must stay.
-    fn advance(self, band: &Band, Outline { angles, .. }: &Outline) -> ControlFlow<Placement, Self> {
+    fn advance(
+        self,
+        band: &Band,
+        OutlineOnLattice { angles, .. }: &OutlineOnLattice,
+    ) -> ControlFlow<NodePlacement, Self> {
         let Self { crossings, mut sides, mut goals, mut acted } = self;
-        let mut placement = Placement::new(band, &crossings, sides.clone(), goals.clone());
+        let mut placement = NodePlacement::new(band, &crossings, sides.clone(), goals.clone());
         drop_flat(band, &mut placement, angles, angles.limit());
         acted.iter_mut().zip(&placement.acted).for_each(|(all, now)| *all |= now);
         let pinched = pinched(band, &placement);
@@ -169,7 +173,7 @@ impl Placing {
         }
         for v in pinched {
             let v = v as usize;
-            (sides[v], goals[v], acted[v]) = (Side::of(band.inside[v]), band.points[v], true);
+            (sides[v], goals[v], acted[v]) = (OutlineSide::from_inside(band.inside[v]), band.points[v], true);
         }
         ControlFlow::Continue(Self { crossings, sides, goals, acted })
     }
@@ -180,9 +184,9 @@ impl Placing {
 fn retreat(
     band: &Band,
     zone: &[bool],
-    placement: &mut Placement,
+    placement: &mut NodePlacement,
     pins: &mut Vec<Pin>,
-    Outline { angles, .. }: &Outline,
+    OutlineOnLattice { angles, .. }: &OutlineOnLattice,
 ) -> bool {
     let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
     let stuck = Guard { band, zone, angles, limit: angles.limit(), pin_limits }.run(placement);

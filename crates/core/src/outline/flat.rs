@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::angles::Angles;
 use super::band::{Band, GRAIN};
-use super::snap::Side;
-use super::stencil::Placement;
+use super::snap::OutlineSide;
+use super::stencil::NodePlacement;
 
 /// Leaves out flat triangles inside with all corners on the outline, if the domain stays in one piece without
 /// them: triangles with two or three edges on the boundary, and triangles with one whose opposite corner is
@@ -13,7 +13,7 @@ use super::stencil::Placement;
 ///
 /// They are left out in rounds. No two triangles of a round have a common node, and each round starts from
 /// the result of the previous one.
-pub(super) fn drop_flat(band: &Band, placement: &mut Placement, angles: &Angles, limit: f64) {
+pub(super) fn drop_flat(band: &Band, placement: &mut NodePlacement, angles: &Angles, limit: f64) {
     let all_on = |&t: &u32| placement.keeps[t as usize] && placement.is_all_on(band, t);
     let is_flat = |&t: &u32| angles.worst(placement.points(band.triangles.corners[t as usize])) > limit;
     let all = (0..band.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
@@ -42,7 +42,7 @@ pub(super) fn drop_flat(band: &Band, placement: &mut Placement, angles: &Angles,
     }
 }
 
-fn is_droppable(band: &Band, placement: &Placement, triangle: u32) -> bool {
+fn is_droppable(band: &Band, placement: &NodePlacement, triangle: u32) -> bool {
     let boundary = boundary_edges(band, placement, triangle, true);
     match boundary.iter().filter(|&&is| is).count() {
         0 => false,
@@ -57,7 +57,12 @@ fn is_droppable(band: &Band, placement: &Placement, triangle: u32) -> bool {
 
 /// Returns, for each corner of a triangle with all corners on the outline, whether the opposite edge is on
 /// the boundary. `inside` is the class of the triangle.
-pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, inside: bool) -> [bool; 3] {
+pub(super) fn boundary_edges(
+    band: &Band,
+    placement: &NodePlacement,
+    triangle: u32,
+    inside: bool,
+) -> [bool; 3] {
     [0, 1, 2].map(|i| {
         let [_, from, to] = band.triangles.starting_at(triangle, i);
         let across = band.triangles.across[triangle as usize][i];
@@ -67,23 +72,23 @@ pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, 
 
 /// Returns whether a node on the outline has a triangle of a class around it. The area beyond the frame is
 /// outside.
-pub(super) fn has_sector(band: &Band, placement: &Placement, node: u32, inside: bool) -> bool {
+pub(super) fn has_sector(band: &Band, placement: &NodePlacement, node: u32, inside: bool) -> bool {
     let mut star = Vec::new();
     sectors(band, placement, node, &mut star).contains(&inside)
 }
 
 /// Returns the classes of the triangles around a node on the outline, anticlockwise, with the class outside
 /// at the end if the triangles do not close around the node. Overwrites `star`.
-fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, usize)>) -> Vec<bool> {
+fn sectors(band: &Band, placement: &NodePlacement, node: u32, star: &mut Vec<(u32, usize)>) -> Vec<bool> {
     band.triangles.star(node, star);
     let mut sectors = Vec::with_capacity(star.len() + 2);
     for &(t, i) in star.iter() {
         let [_, a, b] = band.starting_at(t, i, &placement.sides);
         match (a, b) {
-            (Side::On, Side::On) => sectors.push(placement.keeps[t as usize]),
-            (Side::On, side) => sectors.push(side == Side::Inside),
-            (a, Side::On) => sectors.push(a == Side::Inside),
-            (a, b) => sectors.extend([a == Side::Inside, b == Side::Inside]),
+            (OutlineSide::On, OutlineSide::On) => sectors.push(placement.keeps[t as usize]),
+            (OutlineSide::On, side) => sectors.push(side == OutlineSide::Inside),
+            (a, OutlineSide::On) => sectors.push(a == OutlineSide::Inside),
+            (a, b) => sectors.extend([a == OutlineSide::Inside, b == OutlineSide::Inside]),
         }
     }
     let (first, last) = (star[0], star[star.len() - 1]);
@@ -97,10 +102,10 @@ fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, u
 
 /// Returns the nodes on the outline where the domain would touch itself: more than one fan of triangles
 /// inside meets there.
-pub(super) fn pinched(band: &Band, placement: &Placement) -> Vec<u32> {
+pub(super) fn pinched(band: &Band, placement: &NodePlacement) -> Vec<u32> {
     let all = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
     let pinched = all.map_init(Vec::new, |star, v| {
-        if placement.sides[v as usize] != Side::On {
+        if placement.sides[v as usize] != OutlineSide::On {
             return (v, false);
         }
         let sectors = sectors(band, placement, v, star);

@@ -1,9 +1,9 @@
 //! Keeps the nodes on an outline in step with a mesh that changes where it is.
 //!
-//! Whatever a step of the derivation does at a node depends on the nodes around it, and on what steps did
+//! What a step of the derivation does at a node depends on the nodes around it, and on what earlier steps did
 //! there. Nodes at which something was done or tried (*acting* nodes) form *islands*: those with less than
-//! two triangles between them belong to one. All others stay where the first steps put them, and these look
-//! only a few rings far. So an island is the same whatever happens outside it.
+//! two triangles between them belong to one. All others stay where the first steps put them, and these steps
+//! look only a few rings away. So an island does not depend on anything outside it.
 //!
 //! ```text
 //!   ···o···o···●───●───●···o···o···o···●───●···o···o···       ● acting
@@ -24,7 +24,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::band::{GRAIN, RINGS};
-use super::changes::{FittedBand, Outline, OutlineChanges, OutlineFit, beside};
+use super::changes::{FittedBand, OutlineChanges, OutlineFit, OutlineOnLattice, beside};
 use super::corners::TurningCorners;
 use super::follower_making::FollowerMaking;
 use super::numbers::{Numbers, Pages};
@@ -35,19 +35,19 @@ use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::{Changes, DrawnPiece, Mesh, MeshPatch, NodeId, PatchTriangle, Replacement, TriangleId};
 
 /// A place on the lattice as one number: of a node, or three times the centroid of a triangle. No triangle
-/// has the centroid of one that it is a part of.
-pub(super) type Place = u64;
+/// has the same centroid as one of its ancestors.
+pub(super) type PlaceKey = u64;
 
-pub(super) fn node_place(point: LatticePoint) -> Place {
+pub(super) fn node_place(point: LatticePoint) -> PlaceKey {
     u64::from(point.x) << 32 | u64::from(point.y)
 }
 
 /// Returns the node of a place.
-fn node_at(place: Place) -> LatticePoint {
+fn node_at(place: PlaceKey) -> LatticePoint {
     LatticePoint::new((place >> 32) as u32, place as u32)
 }
 
-pub(super) fn triangle_place(corners: [LatticePoint; 3]) -> Place {
+pub(super) fn triangle_place(corners: [LatticePoint; 3]) -> PlaceKey {
     let sum = |c: fn(&LatticePoint) -> u32| corners.iter().map(|p| u64::from(c(p))).sum::<u64>();
     sum(|p| p.x) << 32 | sum(|p| p.y)
 }
@@ -62,7 +62,7 @@ fn touches(mesh: &Mesh, region: &RegionOnLattice, id: TriangleId) -> bool {
 pub(super) struct KeptTriangle {
     /// Its entry in the mesh; `None` while it is not known whether it is still there.
     pub(super) id: Option<TriangleId>,
-    pub(super) corners: [Place; 3],
+    pub(super) corners: [PlaceKey; 3],
     /// The triangles that replace it; `None` if it stays as it is.
     pub(super) pieces: Option<Box<[KeptPiece]>>,
     pub(super) seat: Seat,
@@ -70,7 +70,7 @@ pub(super) struct KeptTriangle {
 
 impl KeptTriangle {
     /// Returns its nodes and those of its pieces.
-    fn nodes(&self) -> impl Iterator<Item = Place> {
+    fn nodes(&self) -> impl Iterator<Item = PlaceKey> {
         let of_pieces = self.pieces.iter().flatten().flat_map(|piece| piece.corners);
         self.corners.into_iter().chain(of_pieces)
     }
@@ -79,7 +79,7 @@ impl KeptTriangle {
 /// A triangle that replaces another one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeptPiece {
-    pub(super) corners: [Place; 3],
+    pub(super) corners: [PlaceKey; 3],
     /// Whether the edges from each corner to the next are on the boundary.
     pub(super) on_boundary: [bool; 3],
 }
@@ -88,7 +88,7 @@ pub(super) struct KeptPiece {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat {
     /// The place of the triangle.
-    pub(super) place: Place,
+    pub(super) place: PlaceKey,
     /// Whether the outline touches it.
     pub(super) is_touched: bool,
     /// Whether the outline touches it beside the band.
@@ -113,10 +113,10 @@ pub(super) struct KeptNode {
 pub struct OutlineFollower {
     domain: DomainOnLattice,
     corners: Arc<TurningCorners>,
-    triangles: NumberMap<Place, KeptTriangle>,
+    triangles: NumberMap<PlaceKey, KeptTriangle>,
     /// The triangles of `triangles`, by their entries in the mesh.
     seats: NumberMap<u32, Seat>,
-    pub(super) nodes: NumberMap<Place, KeptNode>,
+    pub(super) nodes: NumberMap<PlaceKey, KeptNode>,
     /// Number of triangles of the mesh.
     count: usize,
 }
@@ -125,7 +125,7 @@ impl OutlineFollower {
     /// Derives the nodes on the outline of a domain; `None` if the domain does not require them.
     pub fn new(mesh: &Mesh, domain: &DomainOnLattice) -> Option<Self> {
         let region = domain.region_on_outline()?;
-        let outline = Outline::new(mesh.lattice(), region);
+        let outline = OutlineOnLattice::new(mesh.lattice(), region);
         let fitted = FittedBand::whole(mesh, region, &outline, &mut |_, _| {});
         let making = FollowerMaking::new(mesh, domain, &outline, &fitted);
         making.advance(mesh, &outline, &fitted, usize::MAX).break_value()
@@ -135,7 +135,7 @@ impl OutlineFollower {
     pub(super) fn empty(
         mesh: &Mesh,
         domain: &DomainOnLattice,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         fitted: &FittedBand,
     ) -> Self {
         let mut follower = Self {
@@ -152,8 +152,8 @@ impl OutlineFollower {
         follower
     }
 
-    /// Takes in what changed in the mesh, and returns the entries whose pieces may be others than before, in
-    /// ascending order.
+    /// Takes in what changed in the mesh, and returns the entries whose pieces may have changed, in ascending
+    /// order.
     pub fn update(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<TriangleId> {
         self.update_few(mesh, changes, usize::MAX).expect("there is no limit")
     }
@@ -173,7 +173,7 @@ impl OutlineFollower {
             return None;
         }
         if !relevant.is_empty() {
-            let outline = Outline::with_corners(mesh.lattice(), region, self.corners.clone());
+            let outline = OutlineOnLattice::with_corners(mesh.lattice(), region, self.corners.clone());
             self.derive_around(mesh, &outline, &relevant, &mut rewritten, &mut stale);
         }
         rewritten.par_sort_unstable();
@@ -219,10 +219,10 @@ impl OutlineFollower {
     fn derive_around(
         &mut self,
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         fresh: &[TriangleId],
         rewritten: &mut Vec<TriangleId>,
-        stale: &mut Vec<Place>,
+        stale: &mut Vec<PlaceKey>,
     ) {
         let seeds: Vec<NodeId> = fresh.iter().flat_map(|&id| mesh.triangle(id).vertices).collect();
         let near = Rings::around(mesh, seeds.iter().copied(), RINGS as u32, |_| true);
@@ -271,11 +271,11 @@ impl OutlineFollower {
     fn take_over(
         &mut self,
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         window: &Window,
         reached: &[NodeId],
         rewritten: &mut Vec<TriangleId>,
-        stale: &mut Vec<Place>,
+        stale: &mut Vec<PlaceKey>,
     ) {
         let fitted = &window.fitted;
         let mut writer = Writer::new(mesh, fitted, outline);
@@ -303,7 +303,7 @@ impl OutlineFollower {
             self.write_beside(mesh, id, inside);
         }
         let homes = fitted.band.points.iter().chain(&fitted.placement.homes[fitted.band.points.len()..]);
-        let present: NumberMap<Place, ()> = homes.map(|&home| (node_place(home), ())).collect();
+        let present: NumberMap<PlaceKey, ()> = homes.map(|&home| (node_place(home), ())).collect();
         for place in stale.drain(..).filter(|place| !present.contains_key(place)) {
             self.nodes.remove(&place);
         }
@@ -341,11 +341,11 @@ impl OutlineFollower {
             self.triangles.values().filter_map(|kept| Some((kept.id?, kept.pieces.as_deref()?))).collect();
         changed.par_sort_unstable_by_key(|(id, _)| *id);
         // A moved node, and each corner of a piece, is the corner of a triangle that is replaced.
-        let mut ids = NumberMap::<Place, NodeId>::default();
+        let mut ids = NumberMap::<PlaceKey, NodeId>::default();
         for node in changed.iter().flat_map(|&(id, _)| mesh.triangle(id).vertices) {
             ids.insert(node_place(mesh.node(node)), node);
         }
-        let kept = |place: &Place| self.nodes.get(place).filter(|node| node.at != node.home);
+        let kept = |place: &PlaceKey| self.nodes.get(place).filter(|node| node.at != node.home);
         let moved = ids.iter().filter_map(|(place, &id)| Some((id, kept(place)?.at)));
         let mut patch = MeshPatch { moved: moved.collect(), ..MeshPatch::default() };
         patch.moved.par_sort_unstable_by_key(|(id, _)| *id);
@@ -397,7 +397,7 @@ struct Entries {
     /// New entries of kept triangles.
     rewritten: Vec<TriangleId>,
     /// Nodes of triangles that are gone.
-    stale: Vec<Place>,
+    stale: Vec<PlaceKey>,
 }
 
 impl Entries {

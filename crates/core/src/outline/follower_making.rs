@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::OutlineFollower;
-use super::changes::{FittedBand, Outline};
+use super::changes::{FittedBand, OutlineOnLattice};
 use super::writer::{Writer, Written};
 use crate::domain::DomainOnLattice;
 use crate::mesh::Mesh;
@@ -18,16 +18,21 @@ pub(super) struct FollowerMaking {
 
 impl FollowerMaking {
     /// Begins. Mesh, outline and band are always the same.
-    pub fn new(mesh: &Mesh, domain: &DomainOnLattice, outline: &Outline, fitted: &FittedBand) -> Self {
+    pub fn new(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        outline: &OutlineOnLattice,
+        fitted: &FittedBand,
+    ) -> Self {
         let follower = OutlineFollower::empty(mesh, domain, outline, fitted);
-        Self { follower, written: Written::of(fitted), done: 0 }
+        Self { follower, written: Written::new(fitted), done: 0 }
     }
 
-    /// Takes in at most so many triangles. Returns the follower at the end.
+    /// Takes in a limited number of triangles. Returns the follower at the end.
     pub fn advance(
         self,
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         fitted: &FittedBand,
         most: usize,
     ) -> ControlFlow<OutlineFollower, Self> {

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::angles::Angles;
 use super::band::{Band, GRAIN};
 use super::patchwork::{Gap, gap};
-use super::snap::Side;
-use super::stencil::{Piece, Placement};
+use super::snap::OutlineSide;
+use super::stencil::{CutTriangle, NodePlacement};
 
 /// Lets nodes retreat until no angle is too small.
 pub(super) struct Guard<'a> {
@@ -24,7 +24,7 @@ pub(super) struct Guard<'a> {
 impl Guard<'_> {
     /// Lets nodes retreat, in rounds, until no angle is too small: in a round, the nodes of all failing
     /// triangles take one step back at once. Returns the pinned nodes at which an angle stays too small.
-    pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
+    pub(super) fn run(&self, placement: &mut NodePlacement) -> Vec<u32> {
         let all = (0..self.band.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
         let gap = |t| if self.is_in_zone(t) { gap(self.band, placement, t) } else { Gap::Full };
         let gaps: Vec<Gap> = all.clone().map(gap).collect();
@@ -57,13 +57,14 @@ impl Guard<'_> {
         self.band.starting_at(triangle, 0, self.zone).contains(&true)
     }
 
-    fn can_change(&self, placement: &Placement, triangle: u32) -> bool {
+    fn can_change(&self, placement: &NodePlacement, triangle: u32) -> bool {
         let corners = self.band.starting_at(triangle, 0, &placement.sides);
-        corners.contains(&Side::On) || (corners.contains(&Side::Inside) && corners.contains(&Side::Outside))
+        corners.contains(&OutlineSide::On)
+            || (corners.contains(&OutlineSide::Inside) && corners.contains(&OutlineSide::Outside))
     }
 
     /// Returns the triangles that have a node of `moved`, in ascending order.
-    fn around(&self, placement: &Placement, moved: &[u32]) -> Vec<u32> {
+    fn around(&self, placement: &NodePlacement, moved: &[u32]) -> Vec<u32> {
         let mut around = Vec::new();
         moved.iter().for_each(|&v| placement.push_triangles_at(self.band, v, &mut around));
         around.sort_unstable();
@@ -73,9 +74,9 @@ impl Guard<'_> {
     }
 
     /// Returns the corners of those pieces of a triangle that have an angle that is too small.
-    fn failing(&self, placement: &Placement, triangle: u32, gap: Gap) -> Vec<[u32; 3]> {
+    fn failing(&self, placement: &NodePlacement, triangle: u32, gap: Gap) -> Vec<[u32; 3]> {
         let pieces = placement.pieces(self.band, triangle, self.angles);
-        let fails = |piece: &Piece| {
+        let fails = |piece: &CutTriangle| {
             let points = placement.points(piece.corners);
             match piece.inside {
                 true => self.angles.worst(points) > self.limit,
@@ -87,7 +88,7 @@ impl Guard<'_> {
 
     /// Returns the pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below the
     /// limit of these nodes.
-    fn stuck_pins(&self, placement: &Placement, corners: [u32; 3]) -> Vec<u32> {
+    fn stuck_pins(&self, placement: &NodePlacement, corners: [u32; 3]) -> Vec<u32> {
         let worst = self.angles.worst(placement.points(corners));
         let limit =
             |node| self.pin_limits.binary_search_by_key(&node, |pin| pin.0).map(|n| self.pin_limits[n].1);

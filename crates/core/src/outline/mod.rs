@@ -4,12 +4,12 @@
 //! it: a pure function of the mesh and the outline, independent of the order of the mesh's entries.
 //!
 //! The idea is that of isosurface stuffing \[LabelleShewchuk2007\], with moves as large as half an edge: each
-//! node has a sign, inside or outside. Where the outline crosses an edge between two signs, the end nearer
-//! to the crossing moves there ([`snap`]); edges that no end can leave are cut ([`stencil`]). Signs alone
-//! give a domain that never touches itself; moves keep that, after flat triangles are left out ([`flat`]).
-//! Sharp corners of the outline become nodes ([`corners`]). Where an angle is too small, nodes go back
-//! towards home ([`guard`]). Then edges are flipped ([`patchwork`]) and nodes shifted ([`smooth`]), as far
-//! as that makes the smallest angles larger.
+//! node has a sign, inside or outside. Where the outline crosses an edge between two signs, the end nearer to
+//! the crossing moves there ([`snap`]); edges that no end can leave are cut ([`stencil`]). With signs alone,
+//! the domain never touches itself; moves preserve that, once flat triangles are left out ([`flat`]). Sharp
+//! corners of the outline become nodes ([`corners`]). Where an angle is too small, nodes go back towards home
+//! ([`guard`]). Then edges are flipped ([`patchwork`]) and nodes shifted ([`smooth`]), as far as that makes
+//! the smallest angles larger.
 //!
 //! Nodes end on lattice points, like all nodes of a mesh: at most half a lattice step beside the outline,
 //! whose own corners are lattice points, too ([`RegionOnLattice`](crate::domain::RegionOnLattice)).
@@ -21,10 +21,10 @@
 //! surroundings are derived again ([`OutlineFollower`]).
 //!
 //! Bounds. The domain never touches itself in a node. In square cells every angle is at least 18.4° and at
-//! most 143.2°, except beside sharp corners of the outline: there it is at least 12°, or 0.8 times the
-//! angle of the corner. That nodes lie *on* the outline is not guaranteed: those that retreated may be off
-//! by half an edge. Features thinner than the triangles vanish or join. A triangle needs at least 16
-//! lattice steps along its legs.
+//! most 143.2°, except beside sharp corners of the outline: there it is at least 12°, or 0.8 times the angle
+//! of the corner. That nodes lie *on* the outline is not guaranteed: those that retreated may be off by half
+//! an edge. Features thinner than the triangles vanish or merge. A triangle needs at least 16 lattice steps
+//! along its legs.
 
 mod angles;
 mod triangulation;

@@ -39,8 +39,8 @@ const PAGE: usize = 128;
 ///                           └──▶ …
 /// ```
 ///
-/// So little is cleared before the first number, even where a mesh has millions of triangles: an update of a
-/// coast makes a hundred such tables.
+/// So there is little to clear before the first number, even where a mesh has millions of triangles: an
+/// update of a coast makes a hundred such tables.
 pub(super) struct Pages {
     /// For each chapter of the array, its place in `places`; 0 if it has no numbers.
     chapters: Vec<u32>,

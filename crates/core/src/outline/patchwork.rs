@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::angles::{Angles, COT_5, COT_30};
 use super::band::{Band, GRAIN};
 use super::flat::{boundary_edges, has_sector};
-use super::stencil::Placement;
+use super::stencil::NodePlacement;
 use super::triangulation::{NONE, Triangulation};
 use crate::geometry::{LatticePoint, NumberSet};
 
@@ -66,7 +66,7 @@ pub(super) struct Patchwork {
     pub(super) on_outline: Vec<bool>,
     /// For each node, whether it is at a corner of the outline.
     pub(super) pinned: Vec<bool>,
-    /// For each node, what [`Placement::acted`] says, with the steps since.
+    /// For each node, what [`NodePlacement::acted`] says, with the steps since.
     pub(super) acted: Vec<bool>,
     /// For each node, whether steps that move nodes and flip edges do so at it.
     pub(super) zone: Vec<bool>,
@@ -82,16 +82,16 @@ pub(super) struct Patchwork {
 
 /// The pieces of some triangles of the band, in their order.
 #[derive(Default)]
-struct Pieces {
+struct BandPieces {
     corners: Vec<[u32; 3]>,
     inside: Vec<bool>,
     owners: Vec<u32>,
     gaps: Vec<Gap>,
 }
 
-impl Pieces {
+impl BandPieces {
     /// Divides all triangles of a band.
-    fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
+    fn new(band: &Band, placement: &NodePlacement, angles: &Angles) -> Self {
         let count = band.triangles.len() as u32;
         let chunks = (0..count.div_ceil(CHUNK)).into_par_iter().map(|n| {
             let mut pieces = Self::default();
@@ -108,7 +108,7 @@ impl Pieces {
         all
     }
 
-    fn push(&mut self, band: &Band, placement: &Placement, angles: &Angles, triangle: u32) {
+    fn push(&mut self, band: &Band, placement: &NodePlacement, angles: &Angles, triangle: u32) {
         let mut gap_of_triangle = None;
         for piece in placement.pieces(band, triangle, angles).into_iter().flatten() {
             self.corners.push(piece.corners);
@@ -144,19 +144,24 @@ impl Pieces {
 }
 
 impl Patchwork {
-    pub(super) fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
+    pub(super) fn new(band: &Band, placement: &NodePlacement, angles: &Angles) -> Self {
         Self::in_zone(band, placement, angles, vec![true; band.points.len()])
     }
 
-    /// [`Self::new`], for steps that change only what lies at the nodes of the band in `zone`.
-    pub(super) fn in_zone(band: &Band, placement: &Placement, angles: &Angles, mut zone: Vec<bool>) -> Self {
+    /// Does the work of [`Self::new`], for steps that change only what is at the nodes of the band in `zone`.
+    pub(super) fn in_zone(
+        band: &Band,
+        placement: &NodePlacement,
+        angles: &Angles,
+        mut zone: Vec<bool>,
+    ) -> Self {
         let cuts = band.points.len() as u32..placement.homes.len() as u32;
         for cut in cuts {
             let ends = placement.band_nodes_at(band, cut);
             zone.push(ends.iter().any(|&v| zone[v as usize]));
         }
         let nodes = 0..placement.homes.len() as u32;
-        let pieces = Pieces::new(band, placement, angles);
+        let pieces = BandPieces::new(band, placement, angles);
         let (across, count) = (pieces.across(band), pieces.owners.len());
         Self {
             triangles: Triangulation::new(nodes.len(), pieces.corners, across),
@@ -287,7 +292,7 @@ impl Patchwork {
 }
 
 /// Returns the condition for the pieces outside of a triangle of the band.
-pub(super) fn gap(band: &Band, placement: &Placement, triangle: u32) -> Gap {
+pub(super) fn gap(band: &Band, placement: &NodePlacement, triangle: u32) -> Gap {
     let corners = band.triangles.corners[triangle as usize];
     if !placement.is_all_on(band, triangle) {
         return Gap::Full;

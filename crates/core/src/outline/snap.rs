@@ -9,15 +9,15 @@ use crate::geometry::{Lattice, LatticePoint};
 
 /// The side of the outline on which a node lies, after the nodes nearest to it have moved onto it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum OutlineSide {
     Inside,
     Outside,
     /// On the outline, or moving onto it.
     On,
 }
 
-impl Side {
-    pub(super) fn of(inside: bool) -> Self {
+impl OutlineSide {
+    pub(super) fn from_inside(inside: bool) -> Self {
         if inside { Self::Inside } else { Self::Outside }
     }
 }
@@ -93,7 +93,7 @@ struct Link {
 }
 
 impl Link {
-    fn of(band: &Band, node: u32, star: &mut Vec<(u32, usize)>) -> Self {
+    fn new(band: &Band, node: u32, star: &mut Vec<(u32, usize)>) -> Self {
         band.triangles.star(node, star);
         let mut link = Self { nodes: Vec::new(), edges: Vec::new(), closed: false };
         for &(t, i) in star.iter() {
@@ -134,20 +134,24 @@ impl Link {
 /// Returns the side and the goal of each node of the band. A node moves if the outline crosses an edge of it
 /// nearer to it than to the other end: to the nearest such crossing, all nodes at once. It moves only if the
 /// outline passes between the nodes around it once.
-pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (Vec<Side>, Vec<LatticePoint>) {
+pub(super) fn snapped(
+    band: &Band,
+    crossings: &Crossings,
+    angles: &Angles,
+) -> (Vec<OutlineSide>, Vec<LatticePoint>) {
     let nodes = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
     let placed = nodes.map_init(Vec::new, |star, v| {
-        let (side, home) = (Side::of(band.inside[v as usize]), band.points[v as usize]);
+        let (side, home) = (OutlineSide::from_inside(band.inside[v as usize]), band.points[v as usize]);
         if !band.active[v as usize] {
             return (side, home);
         }
-        let link = Link::of(band, v, star);
+        let link = Link::new(band, v, star);
         let goal = if link.is_divided_once(band) {
             nearest_crossing(band, crossings, angles, v, &link)
         } else {
             None
         };
-        goal.map_or((side, home), |goal| (Side::On, goal))
+        goal.map_or((side, home), |goal| (OutlineSide::On, goal))
     });
     placed.unzip()
 }

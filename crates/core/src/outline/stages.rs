@@ -1,4 +1,4 @@
-//! The stages in which a mesh becomes the derived one, for everyone who wants to see how.
+//! The stages in which a mesh becomes the derived one, for whoever wants to watch.
 
 use super::DerivedMesh;
 use crate::domain::DomainOnLattice;
@@ -39,7 +39,7 @@ pub struct DerivationStage {
     pub patch: MeshPatch,
 }
 
-/// Is told of each stage, with a function that returns the differences from the mesh after it.
+/// Is notified of each stage, with a function that returns the differences from the mesh after it.
 pub(super) type Watch<'a> = &'a mut dyn FnMut(DerivationAction, &dyn Fn() -> MeshPatch);
 
 /// Returns the stages of [`DerivedMesh::new`] that change anything. After the last one, the mesh is the

@@ -14,13 +14,13 @@
 
 use super::angles::Angles;
 use super::band::Band;
-use super::snap::{Crossings, Side};
+use super::snap::{Crossings, OutlineSide};
 use super::triangulation::NONE;
 use crate::geometry::LatticePoint;
 
 /// A triangle after cuts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct CutTriangle {
     /// Nodes, anticlockwise.
     pub(super) corners: [u32; 3],
     pub(super) inside: bool,
@@ -33,9 +33,9 @@ const SHARES: [i64; 5] = [8, 4, 2, 1, 0];
 /// The positions of the nodes of the band and of the nodes that cuts add, and the sides of the triangles.
 ///
 /// Nodes of the band come first, then those in cut edges.
-pub(super) struct Placement {
+pub(super) struct NodePlacement {
     /// The side of each node of the band.
-    pub(super) sides: Vec<Side>,
+    pub(super) sides: Vec<OutlineSide>,
     /// The position of each node on the mesh; for a node in a cut edge the middle of the edge.
     pub(super) homes: Vec<LatticePoint>,
     /// The position of each node on the outline, or its home if it does not move.
@@ -55,13 +55,13 @@ pub(super) struct Placement {
     cut_triangles: Vec<u32>,
 }
 
-impl Placement {
+impl NodePlacement {
     /// Puts all nodes at their goals. `sides` and `goals` are those of the nodes of the band. A triangle with
     /// all corners on the outline is inside if most of them were.
     pub(super) fn new(
         band: &Band,
         crossings: &Crossings,
-        sides: Vec<Side>,
+        sides: Vec<OutlineSide>,
         goals: Vec<LatticePoint>,
     ) -> Self {
         let mostly_inside =
@@ -88,8 +88,10 @@ impl Placement {
         for t in 0..self.cuts.len() {
             for i in 0..3 {
                 let [_, from, to] = band.starting_at(t as u32, i, &self.sides);
-                let is_cut =
-                    matches!((from, to), (Side::Inside, Side::Outside) | (Side::Outside, Side::Inside));
+                let is_cut = matches!(
+                    (from, to),
+                    (OutlineSide::Inside, OutlineSide::Outside) | (OutlineSide::Outside, OutlineSide::Inside)
+                );
                 if !is_cut || self.cuts[t][i] != NONE {
                     continue;
                 }
@@ -122,7 +124,7 @@ impl Placement {
 
     /// Returns whether a node has arrived at its goal on the outline.
     pub(super) fn is_on_outline(&self, node: u32) -> bool {
-        let can_move = self.sides.get(node as usize).is_none_or(|&side| side == Side::On);
+        let can_move = self.sides.get(node as usize).is_none_or(|&side| side == OutlineSide::On);
         can_move
             && (self.retreats[node as usize] == 0 || self.goals[node as usize] == self.homes[node as usize])
     }
@@ -159,7 +161,7 @@ impl Placement {
             let cuts = self.cuts[t as usize];
             cuts[(i + 1) % 3] != NONE || cuts[(i + 2) % 3] != NONE
         };
-        self.sides[node as usize] == Side::On || star.iter().any(has_cut)
+        self.sides[node as usize] == OutlineSide::On || star.iter().any(has_cut)
     }
 
     /// Writes the triangles of the band that have a node, or are cut there, into `found`.
@@ -176,31 +178,34 @@ impl Placement {
 
     /// Returns whether all corners of a triangle are on the outline.
     pub(super) fn is_all_on(&self, band: &Band, triangle: u32) -> bool {
-        band.starting_at(triangle, 0, &self.sides) == [Side::On; 3]
+        band.starting_at(triangle, 0, &self.sides) == [OutlineSide::On; 3]
     }
 
     /// Returns the pieces into which the outline divides a triangle: up to three, where a quadrilateral is
     /// divided by the diagonal with the better angles.
-    pub(super) fn pieces(&self, band: &Band, triangle: u32, angles: &Angles) -> [Option<Piece>; 3] {
+    pub(super) fn pieces(&self, band: &Band, triangle: u32, angles: &Angles) -> [Option<CutTriangle>; 3] {
         let sides = band.starting_at(triangle, 0, &self.sides);
         let count = |side| sides.iter().filter(|&&s| s == side).count();
-        let piece = |corners, side| Some(Piece { corners, inside: side == Side::Inside });
+        let piece = |corners, side| Some(CutTriangle { corners, inside: side == OutlineSide::Inside });
         let whole = |side| [piece(band.triangles.corners[triangle as usize], side), None, None];
         let place = |side| sides.iter().position(|&s| s == side).expect("counted");
         let cut = |i: usize| self.cuts[triangle as usize][i % 3];
-        match (count(Side::Inside), count(Side::Outside)) {
-            (0, 0) => whole(Side::of(self.keeps[triangle as usize])),
-            (_, 0) => whole(Side::Inside),
-            (0, _) => whole(Side::Outside),
+        match (count(OutlineSide::Inside), count(OutlineSide::Outside)) {
+            (0, 0) => whole(OutlineSide::from_inside(self.keeps[triangle as usize])),
+            (_, 0) => whole(OutlineSide::Inside),
+            (0, _) => whole(OutlineSide::Outside),
             (1, 1) => {
-                let i = place(Side::On);
+                let i = place(OutlineSide::On);
                 let [on, b, c] = band.triangles.starting_at(triangle, i);
                 let [_, b_side, c_side] = band.starting_at(triangle, i, &self.sides);
                 [piece([on, b, cut(i)], b_side), piece([on, cut(i), c], c_side), None]
             }
             (inside, _) => {
-                let (alone, others) =
-                    if inside == 1 { (Side::Inside, Side::Outside) } else { (Side::Outside, Side::Inside) };
+                let (alone, others) = if inside == 1 {
+                    (OutlineSide::Inside, OutlineSide::Outside)
+                } else {
+                    (OutlineSide::Outside, OutlineSide::Inside)
+                };
                 let i = place(alone);
                 let [a, b, c] = band.triangles.starting_at(triangle, i);
                 let (ab, ca) = (cut(i + 2), cut(i + 1));
@@ -226,9 +231,9 @@ impl Placement {
         let corners = band.triangles.corners[across as usize];
         let third = corners.into_iter().find(|v| !edge.contains(v)).expect("three corners");
         match self.sides[third as usize] {
-            Side::Inside => true,
-            Side::Outside => false,
-            Side::On => self.keeps[across as usize],
+            OutlineSide::Inside => true,
+            OutlineSide::Outside => false,
+            OutlineSide::On => self.keeps[across as usize],
         }
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::band::{Band, GRAIN, RINGS};
-use super::changes::{FittedBand, Outline};
+use super::changes::{FittedBand, OutlineOnLattice};
 use super::numbers::{Numbers, Pages};
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, NodeId, TriangleId};
@@ -32,7 +32,7 @@ pub(super) struct Rings {
 }
 
 impl Rings {
-    /// Finds the nodes within so many rings of the `first` ones, through triangles that `pass`.
+    /// Finds the nodes within a number of rings of the `first` ones, through triangles that `pass`.
     pub(super) fn around(
         mesh: &Mesh,
         first: impl IntoIterator<Item = NodeId>,
@@ -141,11 +141,11 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Derives the window in which so many rings around some nodes are right, through triangles that `pass`:
-    /// all that may be in the band. `touches` says of a triangle whether the outline touches it.
+    /// Derives the window in which a number of rings around some nodes are right, through triangles that
+    /// `pass`: all that may be in the band. `touches` says of a triangle whether the outline touches it.
     pub(super) fn new(
         mesh: &Mesh,
-        outline: &Outline,
+        outline: &OutlineOnLattice,
         core: Vec<NodeId>,
         (sure, slack): (Vec<NodeId>, u32),
         pass: impl Fn(TriangleId) -> bool,
@@ -254,7 +254,7 @@ impl Window {
     }
 }
 
-/// The nodes whose places or triangles may be others than before.
+/// The nodes whose places or triangles may have changed.
 pub(super) struct Reached {
     pub(super) nodes: Vec<NodeId>,
     /// Whether the window is right about all of them.

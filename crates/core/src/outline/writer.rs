@@ -1,6 +1,6 @@
 //! Writes what is derived into what is kept of it.
 
-use super::changes::{FittedBand, Outline, PiecesByTriangle};
+use super::changes::{FittedBand, OutlineOnLattice, PiecesByTriangle};
 use super::follower::{KeptNode, KeptPiece, KeptTriangle, OutlineFollower, Seat, node_place, triangle_place};
 use super::triangulation::NONE;
 use crate::mesh::Mesh;
@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 pub(super) struct Writer<'a> {
     mesh: &'a Mesh,
     fitted: &'a FittedBand,
-    outline: &'a Outline<'a>,
+    outline: &'a OutlineOnLattice<'a>,
     written: Written,
 }
 
@@ -23,7 +23,7 @@ pub(super) struct Written {
 
 impl Written {
     /// None of them.
-    pub(super) fn of(fitted: &FittedBand) -> Self {
+    pub(super) fn new(fitted: &FittedBand) -> Self {
         Self {
             pieces: PiecesByTriangle::new(&fitted.band, &fitted.patchwork),
             acted: fitted.acted(),
@@ -34,15 +34,15 @@ impl Written {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a Outline<'a>) -> Self {
-        Self::going_on(mesh, fitted, outline, Written::of(fitted))
+    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a OutlineOnLattice<'a>) -> Self {
+        Self::going_on(mesh, fitted, outline, Written::new(fitted))
     }
 
-    /// Returns a writer that goes on where another one for the same band ended.
+    /// Returns a writer that continues where another one for the same band ended.
     pub(super) fn going_on(
         mesh: &'a Mesh,
         fitted: &'a FittedBand,
-        outline: &'a Outline<'a>,
+        outline: &'a OutlineOnLattice<'a>,
         written: Written,
     ) -> Self {
         Self { mesh, fitted, outline, written }

@@ -215,7 +215,7 @@ impl Stroke {
             Entry::Occupied(entry) => {
                 let covered = entry.into_mut();
                 if !covered.grow(&mut coverage) {
-                    // Nothing to paint, but the tile counts as drawn: a slice ends after so many tiles.
+                    // Nothing to paint, but the tile counts as drawn: a slice ends after a number of tiles.
                     return Some(covered.range);
                 }
                 (&*covered, &coverage)
@@ -248,10 +248,10 @@ fn paint_tile(tile: &mut Tile, before: &Tile, coverage: &Tile, paint: impl Fn(f3
 
 /// Returns how many tiles the next segment of a stroke may have, where there are `tiles` already.
 ///
-/// A line that is four thousand times as long as its radius has 16 pixels for the radius. Where a person
-/// paints on and on with a radius that is far below a pixel of the screen, pixels get coarser: a tile and
-/// what is kept of it above take 16 KB, and so a gigabyte is reached slowly. A dab always has as many pixels
-/// as it needs.
+/// A line that is four thousand times as long as its radius has 16 pixels for the radius. If a person keeps
+/// painting with a radius far below a pixel of the screen, pixels get coarser, so that memory grows slowly
+/// even to a gigabyte: a tile and its share of the pyramid take 16 KB. A dab always has as many pixels as it
+/// needs.
 fn most_tiles_beside(tiles: usize) -> usize {
     const MANY: usize = 65_536;
     const OF_A_SEGMENT: RangeInclusive<usize> = 16..=4096;

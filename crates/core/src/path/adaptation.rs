@@ -42,11 +42,11 @@ impl Adapted {
         let wanted: Vec<(f64, u32)> =
             (0..).zip(known).map(important).filter(|&(importance, _)| importance > 0.0).collect();
         if wanted.is_empty() {
-            let costs = TriangleCosts::of_all(known, 0);
+            let costs = TriangleCosts::from_slice(known, 0);
             return Ok(Self { mesh: base, costs, adaptation: Adaptation::default() });
         }
         let varied: Vec<u32> = wanted.iter().map(|&(_, triangle)| triangle).collect();
-        let (mut mesh, mut costs) = (base.with_room(most), TriangleCosts::of_all(known, most));
+        let (mut mesh, mut costs) = (base.with_room(most), TriangleCosts::from_slice(known, most));
         mesh.bisect(wanted, most, |mesh, triangle| {
             let cost = mesh.cost(triangle, density)?;
             costs.set(triangle, cost);
@@ -72,8 +72,8 @@ impl Adapted {
 /// The difference between a mesh and its base. The base itself would take as much memory as the mesh, and is
 /// needed only after an edit.
 ///
-/// Both are sorted along a curve. So what both have is in the same order in both, and numbers follow from
-/// those of what only one has:
+/// Both are sorted along a curve, so what they share is in the same order in both, and its numbers follow
+/// from the numbers of what only one of them has:
 ///
 /// ```text
 ///   base      0  1  2  3  4  5        2 is bisected
@@ -117,11 +117,11 @@ impl Adaptation {
         let mut numbers = vec![NONE; mesh.triangle_count()];
         let (mut triangles, mut across) = (Vec::new(), Vec::new());
         self.visit_base(mesh.triangle_count(), |number, origin| match origin {
-            Origin::Bisected(Bisected { triangle, .. }) => {
+            BaseOrigin::Bisected(Bisected { triangle, .. }) => {
                 triangles.push(*triangle);
                 across.push([NONE; 3]);
             }
-            Origin::Whole(t) => {
+            BaseOrigin::Whole(t) => {
                 let triangle = mesh.triangles[t as usize];
                 let corners = triangle.corners.map(|node| node_numbers[node as usize]);
                 triangles.push(PathTriangle { corners, ..triangle });
@@ -155,8 +155,10 @@ impl Adaptation {
         let mut known = Vec::with_capacity(costs.least.len());
         self.visit_base(costs.least.len(), |_, origin| {
             known.push(match origin {
-                Origin::Bisected(bisected) => bisected.cost,
-                Origin::Whole(t) => TriangleCost::constant(costs.least[t as usize], costs.mean[t as usize]),
+                BaseOrigin::Bisected(bisected) => bisected.cost,
+                BaseOrigin::Whole(t) => {
+                    TriangleCost::constant(costs.least[t as usize], costs.mean[t as usize])
+                }
             });
         });
         self.greatest.iter().for_each(|&(t, greatest)| known[t as usize].greatest = greatest);
@@ -165,27 +167,27 @@ impl Adaptation {
 
     /// Calls a function for each triangle of the base in the order of their numbers, where the mesh has
     /// `count` triangles.
-    fn visit_base<'a>(&'a self, count: usize, mut visit: impl FnMut(u32, Origin<'a>)) {
+    fn visit_base<'a>(&'a self, count: usize, mut visit: impl FnMut(u32, BaseOrigin<'a>)) {
         let mut bisected = self.bisected.iter().peekable();
         let mut whole = without(&self.parts, count);
         for number in 0..(count - self.parts.len() + self.bisected.len()) as u32 {
             match bisected.next_if(|bisected| bisected.number == number) {
-                Some(bisected) => visit(number, Origin::Bisected(bisected)),
-                None => visit(number, Origin::Whole(whole.next().expect("all others are whole"))),
+                Some(bisected) => visit(number, BaseOrigin::Bisected(bisected)),
+                None => visit(number, BaseOrigin::Whole(whole.next().expect("all others are whole"))),
             }
         }
     }
 }
 
 /// Where a triangle of a base is.
-enum Origin<'a> {
+enum BaseOrigin<'a> {
     /// It was bisected.
     Bisected(&'a Bisected),
     /// The mesh has it with this number.
     Whole(u32),
 }
 
-/// Returns the triangles of a base that are others in a mesh that was bisected, and not yet sorted.
+/// Returns the triangles of a base that differ in a mesh that was bisected, and not yet sorted.
 fn bisected(base: &PathMesh, mesh: &PathMesh, known: &[TriangleCost]) -> Vec<Bisected> {
     let pairs = base.triangles.iter().zip(&mesh.triangles);
     let differs = |(_, (old, new)): &(u32, (&PathTriangle, &PathTriangle))| old.corners != new.corners;
@@ -208,7 +210,7 @@ fn without(left_out: &[u32], count: usize) -> impl Iterator<Item = u32> + '_ {
     (0..count as u32).filter(move |number| left_out.next_if_eq(&number).is_none())
 }
 
-/// Returns what number each of `count` has when those in a sorted list are left out; [`NONE`] for these.
+/// Returns the number of each of `count` items once those in a sorted list are left out; [`NONE`] for these.
 fn numbers_without(left_out: &[u32], count: usize) -> Vec<u32> {
     let mut numbers = vec![NONE; count];
     (0..).zip(without(left_out, count)).for_each(|(new, old)| numbers[old as usize] = new);

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::path_mesh::contains;
 use super::{Passage, PathError, Waypoint};
-use crate::domain::{Domain, Outline};
+use crate::domain::{Domain, RegionOutline};
 use crate::geometry::{Rect, Side, nearest_on_segment, side_of_points};
 use crate::layers::{Coverage, Mask};
 
@@ -18,7 +18,7 @@ use crate::layers::{Coverage, Mask};
 #[derive(Clone, Debug)]
 pub struct PathArea {
     keep_out: Arc<[Mask]>,
-    outline: Option<Arc<Outline>>,
+    outline: Option<Arc<RegionOutline>>,
     /// In the plane, in world units.
     clearance: f64,
     /// How many world units a unit of the asked clearance has in the plane, at most.
@@ -31,20 +31,20 @@ impl Default for PathArea {
     }
 }
 
-/// Distances are taken to be shorter by this share, and by this share of the largest coordinate: rounding
-/// makes none of them longer than it is.
+/// Distances are reduced by this share, and by this share of the largest coordinate, so that rounding never
+/// makes one too long.
 const ROUNDING: [f64; 2] = [1e-12, 1e-14];
 
 impl PathArea {
     /// Returns the area of paths through a domain that stay out of regions, with a clearance in world units:
-    /// in the plane of a projection, in metres on the Earth. Only polygons limit it: a domain given by a
-    /// formula is known by the triangles of its mesh alone.
+    /// in the plane of a projection, in metres on the Earth. Only polygons limit it: of a domain given by a
+    /// formula, only the triangles of its mesh are known.
     ///
     /// # Errors
     /// Fails when the clearance is negative, NaN or infinite.
     pub fn new(domain: &Domain, keep_out: Vec<Mask>, clearance: f64) -> Result<Self, PathError> {
         check_clearance(clearance)?;
-        let outline = domain.region().and_then(|region| Outline::new(region)).map(Arc::new);
+        let outline = domain.region().and_then(|region| RegionOutline::new(region)).map(Arc::new);
         let scale = domain.greatest_scale();
         Ok(Self { keep_out: keep_out.into(), outline, clearance: scale * clearance, scale })
     }
@@ -202,7 +202,7 @@ impl Forbidden for Mask {
 }
 
 /// The land: what polygons do not cover in their frame.
-impl Forbidden for Outline {
+impl Forbidden for RegionOutline {
     fn visit_edges(&self, area: &Rect, visit: impl FnMut([DVec2; 2]) -> ControlFlow<()>) -> ControlFlow<()> {
         self.visit_meeting(area, visit)
     }

@@ -46,7 +46,8 @@ impl Bisection {
         Self { waiting, versions: vec![0; count], most: count.saturating_add(most) }
     }
 
-    /// Bisects so many triangles, the most important first, with those that must be bisected before.
+    /// Bisects a limited number of triangles, the most important first, with those that must be bisected
+    /// before.
     ///
     /// # Errors
     /// Fails as [`PathMesh::bisect`] does.

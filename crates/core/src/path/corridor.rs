@@ -41,7 +41,7 @@ impl Corridor {
     /// Returns the excess at a point of an open triangle; `None` elsewhere.
     pub fn excess_at(&self, mesh: &PathMesh, point: DVec2) -> Option<f64> {
         let triangle = mesh.locate(point, Passage::Open)?;
-        let place = super::Place { point, triangle };
+        let place = super::MeshPlace { point, triangle };
         Some(place.interpolate(mesh, &self.excess))
     }
 }

@@ -9,8 +9,8 @@ use crate::layers::{ModelPlace, RiskField};
 
 /// A cost per unit of length, in world units: positive and finite.
 ///
-/// On the Earth, where lengths are those on the ellipsoid, [`GroundCost`](super::GroundCost) makes one of a
-/// cost per metre there.
+/// On the Earth, where lengths are those on the ellipsoid, [`GroundCost`](super::GroundCost) converts a cost
+/// per metre there into one.
 ///
 /// Where it jumps, the smaller value counts (it is lower semicontinuous), so that a path of least cost
 /// exists.
@@ -60,7 +60,7 @@ pub trait CostDensity: Send + Sync {
     }
 }
 
-/// No cost in a rectangle is smaller than the one or greater than the other.
+/// Bounds of the cost in a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostRange {
     /// A lower bound of the cost; −∞ if the cost may be NaN.

@@ -24,9 +24,9 @@ const MOST_FOR_PLACES: usize = 20_000;
 /// The diameter of triangles around a place, as a part of the distance from it and of its own distance from
 /// the rim.
 const GRADING: [f64; 2] = [0.3, 0.25];
-/// How often the triangles on a way are divided that the rim leaves none through.
+/// How often the triangles on a way are divided that the rim blocks.
 const MOST_ROUNDS: usize = 5;
-/// Sought ways avoid triangles through which the rim passes by taking them to be so many times as long.
+/// The search for ways avoids triangles through which the rim passes: lengths in them count this many times.
 const DETOUR: f64 = 3.0;
 
 /// Bisection of the triangles through which the rim of the area passes, the largest first, in slices.
@@ -53,7 +53,7 @@ impl RimDivision {
         Some(Self { bisection, coarsest, before })
     }
 
-    /// Bisects so many triangles.
+    /// Bisects `triangles` triangles.
     pub fn advance(&mut self, mesh: &mut PathMesh, triangles: usize) -> Progress {
         let mut importance =
             |mesh: &PathMesh, t: u32| Ok::<_, Infallible>(importance_at_rim(mesh, t, self.coarsest));
@@ -178,7 +178,7 @@ impl PathMesh {
     }
 
     /// Returns the triangles of a short way from one to another through those that are not closed: from node
-    /// to node, so that it finds what hangs together in a node alone.
+    /// to node, so that it also finds parts that only share a node.
     fn way(&self, from: u32, to: u32) -> Vec<u32> {
         let mut known = vec![(f64::INFINITY, NONE, NONE); self.nodes.len()];
         let mut waiting = BestFirst::default();

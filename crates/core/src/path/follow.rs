@@ -6,16 +6,16 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::adaptation::{Adaptation, Adapted};
-use super::origin::Origin;
+use super::origin::WaypointMarch;
 use super::path_mesh::{NONE, PathMesh};
-use super::shared::Shared;
+use super::shared::SharedParts;
 use super::triangle_costs::{TriangleCost, TriangleCosts, coarsest};
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Planner};
 use crate::geometry::Rect;
 use crate::mesh::Progress;
 
-/// One thread computes the costs of so many triangles in a step.
+/// Number of triangles whose costs one thread computes in a step.
 const AT_ONCE: usize = 2048;
 /// More rectangles in which the cost changed are joined to one.
 const MOST_AREAS: usize = 64;
@@ -23,14 +23,14 @@ const MOST_AREAS: usize = 64;
 /// What marches must know to follow from one mesh to another.
 struct MeshMove {
     old: Arc<PathMesh>,
-    shared: Shared,
+    shared: SharedParts,
     /// The triangles that are new, or whose costs or passages changed.
     changed: Vec<u32>,
 }
 
 impl Planner {
     /// Follows a change of the cost inside rectangles in world units: paths are then those of a new planner.
-    /// Costs are computed again only there, and marches follow.
+    /// Costs are recomputed only there, and marches are updated.
     ///
     /// # Errors
     /// Fails when the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
@@ -62,10 +62,10 @@ impl Planner {
         Ok(())
     }
 
-    /// Goes over to another mesh, as after an edit that refined the mesh in some places, and follows a change
-    /// of the cost inside rectangles in world units: paths are then those of a new planner for that mesh.
-    /// Costs are computed again only there and for triangles that are new, and marches follow through those
-    /// that are not.
+    /// Moves to another mesh, for example after an edit that refined the mesh in some places, and follows a
+    /// change of the cost inside rectangles in world units: paths are then those of a new planner for that
+    /// mesh. Costs are recomputed only there and for new triangles, and marches are updated through the
+    /// others.
     ///
     /// # Errors
     /// Fails as [`Self::update`] does; then nothing changes.
@@ -92,7 +92,7 @@ impl Planner {
         let before = std::mem::replace(&mut self.costs, costs);
         self.walls = Arc::new(Walls::new(&self.mesh));
         let Self { mesh, costs, .. } = self;
-        let shared = Shared::of(&old, mesh);
+        let shared = SharedParts::between(&old, mesh);
         let is_changed = |&t: &u32| {
             let (t, known) = (t as usize, shared.triangles[t as usize] as usize);
             known == NONE as usize
@@ -148,7 +148,7 @@ impl Planner {
     /// Lets the marches follow the costs of some triangles.
     fn follow_costs(&mut self, changed: &[u32]) {
         let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
-        let follow = |(origin, costs, least): (&mut Origin, &[f64], Passage)| {
+        let follow = |(origin, costs, least): (&mut WaypointMarch, &[f64], Passage)| {
             origin.follow(mesh, costs, least, changed);
         };
         let open = origins.par_iter_mut().map(|origin| (origin, &*costs.mean, Passage::Open));
@@ -161,11 +161,11 @@ impl Planner {
 pub struct PlannerMove {
     mesh: Arc<PathMesh>,
     areas: Vec<Rect>,
-    step: Step,
+    step: FollowStep,
 }
 
 /// What is done next.
-enum Step {
+enum FollowStep {
     Begin,
     /// The costs of these triangles are computed, from that place on.
     Costs {
@@ -183,9 +183,9 @@ enum Step {
 }
 
 impl PlannerMove {
-    /// Begins to go over to another mesh, where the cost changed inside rectangles in world units.
+    /// Begins to move to another mesh, where the cost changed inside rectangles in world units.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, areas: &[Rect]) -> Self {
-        Self { mesh: mesh.into(), areas: areas.to_vec(), step: Step::Begin }
+        Self { mesh: mesh.into(), areas: areas.to_vec(), step: FollowStep::Begin }
     }
 
     /// Takes a step.
@@ -198,15 +198,15 @@ impl PlannerMove {
         density: &dyn CostDensity,
     ) -> Result<Progress, PathError> {
         let Self { mesh, areas, step } = self;
-        *step = match std::mem::replace(step, Step::Done) {
-            Step::Begin => match &planner.adaptation {
+        *step = match std::mem::replace(step, FollowStep::Done) {
+            FollowStep::Begin => match &planner.adaptation {
                 None => {
                     *planner = Planner::on_mesh(Arc::clone(mesh), density)?;
-                    Step::Done
+                    FollowStep::Done
                 }
                 Some(adaptation) => known_costs(planner, adaptation, mesh, areas),
             },
-            Step::Costs { mut known, unknown, next } => {
+            FollowStep::Costs { mut known, unknown, next } => {
                 let most = if rayon::current_num_threads() > 1 { unknown.len() } else { AT_ONCE };
                 let end = next.saturating_add(most).min(unknown.len());
                 let some = &unknown[next..end];
@@ -214,33 +214,34 @@ impl PlannerMove {
                     known[triangle as usize] = cost;
                 }
                 if end < unknown.len() {
-                    Step::Costs { known, unknown, next: end }
+                    FollowStep::Costs { known, unknown, next: end }
                 } else {
-                    Step::Adapt(known)
+                    FollowStep::Adapt(known)
                 }
             }
-            Step::Adapt(known) => Step::Take(Adapted::new(Arc::clone(mesh), &known, density)?),
-            Step::Take(Adapted { mesh, costs, adaptation }) => {
+            FollowStep::Adapt(known) => FollowStep::Take(Adapted::new(Arc::clone(mesh), &known, density)?),
+            FollowStep::Take(Adapted { mesh, costs, adaptation }) => {
                 planner.adaptation = Some(adaptation);
-                Step::March(planner.take_mesh(mesh, costs), 0)
+                FollowStep::March(planner.take_mesh(mesh, costs), 0)
             }
-            Step::March(moved, first) => {
+            FollowStep::March(moved, first) => {
                 let end = if rayon::current_num_threads() > 1 { usize::MAX } else { first + 1 };
                 match planner.let_follow(&moved, first..end) {
-                    Progress::More => Step::March(moved, end),
-                    Progress::Done => Step::Done,
+                    Progress::More => FollowStep::March(moved, end),
+                    Progress::Done => FollowStep::Done,
                 }
             }
-            Step::Done => Step::Done,
+            FollowStep::Done => FollowStep::Done,
         };
-        Ok(if matches!(step, Step::Done) { Progress::Done } else { Progress::More })
+        Ok(if matches!(step, FollowStep::Done) { Progress::Done } else { Progress::More })
     }
 }
 
-/// Takes the costs that a planner knows of a new mesh, and finds the triangles whose costs it does not.
-fn known_costs(planner: &Planner, adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> Step {
+/// Takes the costs that a planner already knows for a new mesh, and finds the triangles whose costs it does
+/// not know.
+fn known_costs(planner: &Planner, adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> FollowStep {
     let base = adaptation.base(&planner.mesh);
-    let shared = Shared::of(&base, new);
+    let shared = SharedParts::between(&base, new);
     // Triangles that need not be bisected have no greatest cost, and another extent may ask for it.
     let is_known = coarsest(&base) == coarsest(new);
     let is_unknown = |&(_, &t): &(u32, &u32)| t == NONE || !is_known;
@@ -252,5 +253,5 @@ fn known_costs(planner: &Planner, adaptation: &Adaptation, new: &PathMesh, areas
     let costs = adaptation.known_costs(&planner.costs);
     let of_old = |&t: &u32| costs.get(t as usize).copied().unwrap_or(TriangleCost::CLOSED);
     let known = shared.triangles.iter().map(of_old).collect();
-    Step::Costs { known, unknown, next: 0 }
+    FollowStep::Costs { known, unknown, next: 0 }
 }

@@ -18,10 +18,12 @@ pub struct FrontPoint {
     pub solution: Solution,
 }
 
-/// The front of length against risk, computed one path at a time: from the shortest path to the safest.
+/// The Pareto front of length against risk, computed one path at a time: from the shortest path to the
+/// safest.
 ///
 /// The length counts 1, and the risk from 0 up to 1,000 by equal factors. Paths that are longer than another
 /// without less risk are left out. Weights find the paths on the convex hull of the front only.
+#[doc(alias = "Pareto front")]
 #[derive(Clone, Debug)]
 pub struct Front {
     mesh: Arc<PathMesh>,
@@ -33,7 +35,7 @@ pub struct Front {
     points: Vec<FrontPoint>,
 }
 
-/// The least and the greatest risk weight, beside 0.
+/// The smallest and the largest risk weight, besides 0.
 const WEIGHTS: [f64; 2] = [0.1, 1000.0];
 
 /// Digits of a weight.
@@ -93,7 +95,7 @@ impl Front {
         Planner::new(self.mesh.clone(), &*density)?.solve(&*density, &self.places, request)
     }
 
-    /// Adds a path, unless one in the list is as good in both; removes those that it is as good as.
+    /// Adds a path, unless one in the list is as good in both respects; removes those that it dominates.
     fn insert(&mut self, point: FrontPoint) {
         let is_covered = |a: &Solution, by: &Solution| {
             by.length_on_ground <= a.length_on_ground * (1.0 + EQUAL) && by.risk <= a.risk * (1.0 + EQUAL)

@@ -34,7 +34,7 @@ impl PathFigures {
     /// The upper bound adds up bounds of the cost over pieces. A piece is halved until its bounds differ by
     /// less than `tolerance` times their mean, so that the upper bound is above the integral by that share at
     /// most, except where the cost jumps. It is exact where the cost has one value.
-    pub fn of(points: &[DVec2], density: &dyn CostDensity, tolerance: f64) -> Self {
+    pub fn new(points: &[DVec2], density: &dyn CostDensity, tolerance: f64) -> Self {
         let mut figures = Self::default();
         for pair in points.windows(2) {
             figures.add_piece(pair[0], pair[1], density, tolerance, MOST_HALVINGS);
@@ -44,9 +44,9 @@ impl PathFigures {
         figures
     }
 
-    /// Goes on to a point: adds the figures of the segment from `last`, which the point takes the place of.
+    /// Continues to a point: adds the figures of the segment from `last`, which the point replaces.
     pub(super) fn go_on(&mut self, last: &mut DVec2, to: DVec2, density: &dyn CostDensity, tolerance: f64) {
-        let Self { cost, upper, length, length_on_ground } = Self::of(&[*last, to], density, tolerance);
+        let Self { cost, upper, length, length_on_ground } = Self::new(&[*last, to], density, tolerance);
         self.cost += cost;
         self.upper += upper;
         self.length += length;
@@ -91,7 +91,7 @@ const MOST_RISK_HALVINGS: u32 = 10;
 impl RiskAlong {
     /// Returns the risk along a polyline, however long its pieces are: where the risk does not count, a path
     /// is straight and has few points.
-    pub fn of(points: &[DVec2], density: &dyn CostDensity) -> Self {
+    pub fn new(points: &[DVec2], density: &dyn CostDensity) -> Self {
         let mut along = Self::default();
         let mut walked = 0.0;
         if let Some(&start) = points.first() {
@@ -159,7 +159,7 @@ fn mean_range(p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64) -> 
     within(range, middle, most)
 }
 
-/// Returns the part of a range that differs by at most so much from a value.
+/// Returns the part of a range that differs from a value by at most `most`.
 fn within(range: CostRange, value: f64, most: f64) -> CostRange {
     CostRange { least: range.least.max(value - most), greatest: range.greatest.min(value + most) }
 }
@@ -167,8 +167,8 @@ fn within(range: CostRange, value: f64, most: f64) -> CostRange {
 /// Returns the mean of a polynomial of degree 2 near the cost over a segment, and a bound of how much the
 /// mean of the cost differs. `None` where no such polynomial is known.
 ///
-/// It leaves out a term of the third power of the length, and derivatives one of the second: for the same
-/// tolerance the pieces are several times as long.
+/// Its error is of third order in the length, that of derivatives of second order: for the same tolerance the
+/// pieces are several times as long.
 fn mean_of_model(p: DVec2, q: DVec2, rectangle: &Rect, density: &dyn CostDensity) -> Option<(f64, f64)> {
     let sides = rectangle.size();
     let is_thin = sides.min_element() == 0.0;
@@ -260,7 +260,7 @@ mod tests {
         let risk = Layer::stack([LayerKind::risk(Formula::parse("x^2").unwrap())]);
         let risk = RiskField::new(&risk, PaintLayers::blank());
         let cost = FormulaCost { formula: CostFormula::parse("1").unwrap(), risk };
-        let along = RiskAlong::of(&[dvec2(0.0, 0.5), dvec2(1.0, 0.5)], &cost);
+        let along = RiskAlong::new(&[dvec2(0.0, 0.5), dvec2(1.0, 0.5)], &cost);
         assert!((along.integral - 1.0 / 3.0).abs() < 1e-4, "{along:?}");
         assert!((along.highest - 1.0).abs() < 1e-9 && (along.highest_at - 1.0).abs() < 1e-9, "{along:?}");
     }

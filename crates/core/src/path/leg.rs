@@ -1,5 +1,5 @@
-//! The search for the path of one leg, a step at a time: a page has no other thread, and all steps take
-//! longer than one of its frames.
+//! The search for the path of one leg, a step at a time: a page has no other thread, and the whole search
+//! takes longer than one of its frames.
 
 use glam::DVec2;
 
@@ -7,7 +7,7 @@ use super::integral::PathFigures;
 use super::lower::LowerBound;
 use super::march::March;
 use super::obstacle::obstacle;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::planner::{PathRequest, Planner};
 use super::refine::{Effort, Refining, refine};
 use super::shortest::{CornerSearch, Shortest};
@@ -18,7 +18,7 @@ use crate::mesh::Progress;
 
 /// The tolerance with which two paths are compared.
 const COMPARED: f64 = 1e-3;
-/// An interval of a shortest way takes as long as so many nodes of a march.
+/// Number of nodes of a march that take as long as an interval of a shortest way.
 const INTERVALS: usize = 8;
 /// Another way is worth a closer look if sketches promise that it costs less by this share.
 const LEAST_GAIN: f64 = 1e-4;
@@ -27,12 +27,12 @@ const LEAST_GAIN: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub(super) struct LegSearch {
     leg: usize,
-    ends: [Place; 2],
+    ends: [MeshPlace; 2],
     request: PathRequest,
-    step: Step,
+    step: LegStep,
     /// The best path so far.
     solution: Solution,
-    /// Ways along which paths are sought. The first one is that of the march from the start.
+    /// Ways along which paths are searched for. The first one is that of the march from the start.
     ways: Vec<Vec<DVec2>>,
     /// The least cost of a sketch so far.
     least: f64,
@@ -40,15 +40,15 @@ pub(super) struct LegSearch {
 
 /// What is done next.
 #[derive(Clone, Debug)]
-enum Step {
+enum LegStep {
     /// Follows the march from the start.
     Trace,
     /// Makes a way smooth: the first one, or another one.
-    Smooth(Box<Refining>, Option<Candidates>),
+    Smooth(Box<Refining>, Option<WayCandidates>),
     /// Takes the first solution.
     Solve(Vec<DVec2>),
     /// Takes each of these paths if it costs less, the last one first, then takes that step.
-    Better(Vec<Vec<DVec2>>, Box<Step>),
+    Better(Vec<Vec<DVec2>>, Box<LegStep>),
     /// Compares that with the path as it was traced: where the cost jumps, a smooth one can cost more.
     Compare,
     /// Begins to march from the goal.
@@ -71,30 +71,30 @@ enum Step {
     Raise(Box<LowerBound>),
 }
 
-/// A smooth path is made of a way: either may cost less than the solution.
+/// A smooth path was made from a way: either may cost less than the solution.
 #[derive(Clone, Debug)]
-struct Candidates {
+struct WayCandidates {
     way: Vec<DVec2>,
     /// Whether the smooth one is tried first.
     is_smooth_first: bool,
-    next: Box<Step>,
+    next: Box<LegStep>,
 }
 
-impl Candidates {
-    fn with(self, smooth: Vec<DVec2>) -> Step {
+impl WayCandidates {
+    fn with(self, smooth: Vec<DVec2>) -> LegStep {
         let Self { way, is_smooth_first, next } = self;
-        Step::Better(if is_smooth_first { vec![way, smooth] } else { vec![smooth, way] }, next)
+        LegStep::Better(if is_smooth_first { vec![way, smooth] } else { vec![smooth, way] }, next)
     }
 }
 
 impl LegSearch {
-    pub fn new(leg: usize, ends: [Place; 2], request: PathRequest) -> Self {
-        let (step, solution) = (Step::Trace, Solution::default());
+    pub fn new(leg: usize, ends: [MeshPlace; 2], request: PathRequest) -> Self {
+        let (step, solution) = (LegStep::Trace, Solution::default());
         Self { leg, ends, request, step, solution, ways: Vec::new(), least: f64::INFINITY }
     }
 
-    /// Takes a step, in which a march accepts at most so many nodes. Returns the path at the end. `places` is
-    /// the number of places of the route.
+    /// Takes a step, in which a march accepts a limited number of nodes. Returns the path at the end.
+    /// `places` is the number of places of the route.
     ///
     /// # Errors
     /// Fails when no march leads to the goal, or the cost of the path is not finite.
@@ -106,87 +106,97 @@ impl LegSearch {
         nodes: usize,
     ) -> Result<Option<Solution>, PathError> {
         let Self { ends, request, .. } = *self;
-        self.step = match std::mem::replace(&mut self.step, Step::Bound) {
-            Step::Trace if ends[0].point == ends[1].point => {
+        self.step = match std::mem::replace(&mut self.step, LegStep::Bound) {
+            LegStep::Trace if ends[0].point == ends[1].point => {
                 let points = ends.map(|end| end.point).to_vec();
                 return Ok(Some(planner.solution(points, density, request.tolerance)));
             }
-            Step::Trace => {
+            LegStep::Trace => {
                 let traced = self.trace(planner, places)?;
                 self.ways.push(traced.clone());
-                Step::Smooth(self.refining(traced), None)
+                LegStep::Smooth(self.refining(traced), None)
             }
-            Step::Bound => match self.begin_bound(planner)? {
-                Some(bound) => Step::Raise(Box::new(bound)),
+            LegStep::Bound => match self.begin_bound(planner)? {
+                Some(bound) => LegStep::Raise(Box::new(bound)),
                 None => return Ok(Some(std::mem::take(&mut self.solution))),
             },
-            Step::Raise(mut bound) => match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
-                None => Step::Raise(bound),
-                Some(lower) => {
-                    self.solution.lower = lower.min(self.solution.upper);
-                    return Ok(Some(std::mem::take(&mut self.solution)));
+            LegStep::Raise(mut bound) => {
+                match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
+                    None => LegStep::Raise(bound),
+                    Some(lower) => {
+                        self.solution.lower = lower.min(self.solution.upper);
+                        return Ok(Some(std::mem::take(&mut self.solution)));
+                    }
                 }
-            },
+            }
             step => self.improve(step, planner, density, nodes),
         };
         Ok(None)
     }
 
     /// Takes one of the steps from the traced way to the best path. Returns the next one.
-    fn improve(&mut self, step: Step, planner: &Planner, density: &dyn CostDensity, nodes: usize) -> Step {
+    fn improve(
+        &mut self,
+        step: LegStep,
+        planner: &Planner,
+        density: &dyn CostDensity,
+        nodes: usize,
+    ) -> LegStep {
         let Self { ends, request, .. } = *self;
         match step {
-            Step::Smooth(mut refining, others) => match (refining.advance(density, &planner.walls), others) {
-                (None, others) => Step::Smooth(refining, others),
-                (Some(smooth), Some(others)) => others.with(smooth),
-                (Some(smooth), None) => Step::Solve(smooth),
-            },
-            Step::Solve(points) => {
+            LegStep::Smooth(mut refining, others) => {
+                match (refining.advance(density, &planner.walls), others) {
+                    (None, others) => LegStep::Smooth(refining, others),
+                    (Some(smooth), Some(others)) => others.with(smooth),
+                    (Some(smooth), None) => LegStep::Solve(smooth),
+                }
+            }
+            LegStep::Solve(points) => {
                 self.solution = planner.solution(points, density, request.tolerance);
-                Step::Compare
+                LegStep::Compare
             }
-            Step::Compare => {
+            LegStep::Compare => {
                 self.take_better(planner, density, self.ways[0].clone());
-                if request.effort == Effort::FULL { Step::Back } else { Step::Bound }
+                if request.effort == Effort::FULL { LegStep::Back } else { LegStep::Bound }
             }
-            Step::Better(mut paths, next) => match paths.pop() {
+            LegStep::Better(mut paths, next) => match paths.pop() {
                 Some(path) => {
                     self.take_better(planner, density, path);
-                    Step::Better(paths, next)
+                    LegStep::Better(paths, next)
                 }
                 None => *next,
             },
-            Step::Back => Step::March(Box::new(planner.begin_back(ends[1]))),
-            Step::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
-                Progress::More => Step::March(march),
-                Progress::Done => Step::Ways(march),
+            LegStep::Back => LegStep::March(Box::new(planner.begin_back(ends[1]))),
+            LegStep::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
+                Progress::More => LegStep::March(march),
+                Progress::Done => LegStep::Ways(march),
             },
-            Step::Ways(march) => {
+            LegStep::Ways(march) => {
                 self.find_ways(planner, &march);
                 (self.least, _) = sketch(planner, density, &self.ways[0]);
-                Step::Sketch(1)
+                LegStep::Sketch(1)
             }
-            Step::Sketch(number) if number < self.ways.len() => self.try_way(planner, density, number),
-            Step::Sketch(_) => Step::Lines,
-            Step::Lines => match planner.along_lines(density, ends, self.solution.cost) {
-                Some(along) => self.smooth(along, true, Step::Shortest),
-                None => Step::Shortest,
+            LegStep::Sketch(number) if number < self.ways.len() => self.try_way(planner, density, number),
+            LegStep::Sketch(_) => LegStep::Lines,
+            LegStep::Lines => match planner.along_lines(density, ends, self.solution.cost) {
+                Some(along) => self.smooth(along, true, LegStep::Shortest),
+                None => LegStep::Shortest,
             },
-            Step::Shortest => match self.begin_shortest(planner, density) {
-                Some(search) => Step::Corners(Box::new(search)),
-                None => Step::Bound,
+            LegStep::Shortest => match self.begin_shortest(planner, density) {
+                Some(search) => LegStep::Corners(Box::new(search)),
+                None => LegStep::Bound,
             },
-            Step::Corners(mut search) => {
+            LegStep::Corners(mut search) => {
                 let progress = self.look_around(&mut search, planner, density, nodes / INTERVALS);
                 if progress == Progress::More {
-                    return Step::Corners(search);
+                    return LegStep::Corners(search);
                 }
                 match search.way(&planner.mesh, &planner.walls) {
-                    Some(way) => self.smooth(way, false, Step::Bound),
-                    None => Step::Bound,
+                    Some(way) => self.smooth(way, false, LegStep::Bound),
+                    None => LegStep::Bound,
                 }
             }
-            step @ (Step::Trace | Step::Bound | Step::Raise(_)) => step,
+            step @ (LegStep::Trace | LegStep::Bound | LegStep::Raise(_)) => step,
         }
     }
 
@@ -202,10 +212,10 @@ impl LegSearch {
         Box::new(Refining::new(way, self.request.effort))
     }
 
-    /// Makes a way smooth, tries both, the smooth one first or last, and goes on with a step.
-    fn smooth(&self, way: Vec<DVec2>, is_smooth_first: bool, next: Step) -> Step {
+    /// Smooths a way, tries both, the smooth one first or last, and continues with a step.
+    fn smooth(&self, way: Vec<DVec2>, is_smooth_first: bool, next: LegStep) -> LegStep {
         let next = Box::new(next);
-        Step::Smooth(self.refining(way.clone()), Some(Candidates { way, is_smooth_first, next }))
+        LegStep::Smooth(self.refining(way.clone()), Some(WayCandidates { way, is_smooth_first, next }))
     }
 
     /// Begins with the lower bound; `None` where none is wanted, or nothing is known.
@@ -225,7 +235,7 @@ impl LegSearch {
     /// Takes a path in place of the solution if it costs less.
     fn take_better(&mut self, planner: &Planner, density: &dyn CostDensity, points: Vec<DVec2>) {
         // Bounds are much work: only for what promises to cost less.
-        if PathFigures::of(&points, density, COMPARED).cost < self.solution.cost {
+        if PathFigures::new(&points, density, COMPARED).cost < self.solution.cost {
             let other = planner.solution(points, density, self.request.tolerance);
             if other.upper < self.solution.upper {
                 self.solution = other;
@@ -243,9 +253,9 @@ impl LegSearch {
     }
 
     /// Sketches the way with this number. Returns the next step.
-    fn try_way(&mut self, planner: &Planner, density: &dyn CostDensity, number: usize) -> Step {
+    fn try_way(&mut self, planner: &Planner, density: &dyn CostDensity, number: usize) -> LegStep {
         let (promised, sketched) = sketch(planner, density, &self.ways[number]);
-        let next = Step::Sketch(number + 1);
+        let next = LegStep::Sketch(number + 1);
         if promised < self.least * (1.0 - LEAST_GAIN) {
             self.least = promised;
             return self.smooth(sketched, true, next);
@@ -253,8 +263,8 @@ impl LegSearch {
         next
     }
 
-    /// Begins to look for the shortest way in the plane that is shorter than the solution, if that has one
-    /// cost all along.
+    /// Begins to search for the shortest way in the plane that is shorter than the solution, if the solution
+    /// has the same cost everywhere.
     fn begin_shortest(&self, planner: &Planner, density: &dyn CostDensity) -> Option<CornerSearch> {
         let Self { ends, solution, .. } = self;
         if !is_constant_along(&solution.points, |rectangle| density.range_on_ground(rectangle)) {
@@ -267,7 +277,7 @@ impl LegSearch {
         Some(CornerSearch::new(&planner.mesh, &planner.walls, *ends, solution.length * (greatest / least)))
     }
 
-    /// Looks at most at so many intervals for the shortest way. Returns whether there is more to do.
+    /// Looks at a limited number of intervals for the shortest way. Returns whether there is more to do.
     fn look_around(
         &self,
         search: &mut CornerSearch,
@@ -287,5 +297,5 @@ impl LegSearch {
 /// Returns what a rough path along a way costs, and the path.
 fn sketch(planner: &Planner, density: &dyn CostDensity, way: &[DVec2]) -> (f64, Vec<DVec2>) {
     let sketch = refine(way, density, &planner.walls, Effort::SKETCH);
-    (PathFigures::of(&sketch, density, COMPARED).cost, sketch)
+    (PathFigures::new(&sketch, density, COMPARED).cost, sketch)
 }

@@ -11,7 +11,7 @@ use glam::{DVec2, dvec2};
 
 use super::march::March;
 use super::path_mesh::PathMesh;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::refine::{Effort, refine};
 use super::trace::trace;
 use super::triangle_costs::TriangleCosts;
@@ -43,7 +43,7 @@ const SHORT: f64 = 1.0 / 4096.0;
 const LEAST_PROMISE: f64 = 1e-3;
 
 /// The data with which a path is searched.
-pub(super) struct Lines<'a> {
+pub(super) struct LineSearch<'a> {
     pub mesh: &'a PathMesh,
     pub costs: &'a TriangleCosts,
     pub walls: &'a Walls,
@@ -54,14 +54,14 @@ pub(super) struct Lines<'a> {
 
 /// A point of a path, and whether it was moved to a line.
 #[derive(Clone, Copy)]
-struct Point {
+struct ChordPoint {
     at: DVec2,
     is_on_line: bool,
 }
 
-impl Lines<'_> {
+impl LineSearch<'_> {
     /// Returns a path that the walls admit, where lines may lead to one that costs less than `known`.
-    pub(super) fn path(&self, ends: [Place; 2], known: f64, effort: Effort) -> Option<Vec<DVec2>> {
+    pub(super) fn path(&self, ends: [MeshPlace; 2], known: f64, effort: Effort) -> Option<Vec<DVec2>> {
         let has_any = (0..self.mesh.triangle_count() as u32).any(|t| self.hides_line(t));
         if !has_any {
             return None;
@@ -85,7 +85,7 @@ impl Lines<'_> {
     /// Returns whether the cost has close bounds on the chords along lines. It has none on an oblique line,
     /// whose every rectangle reaches beyond it, and then an upper bound of the path is as if there was no
     /// line.
-    fn has_bounds_along(&self, points: &[Point]) -> bool {
+    fn has_bounds_along(&self, points: &[ChordPoint]) -> bool {
         points.windows(2).filter(|pair| pair[0].is_on_line && pair[1].is_on_line).all(|pair| {
             let [p, q] = [pair[0].at, pair[1].at];
             let range = self.density.range(&Rect::spanning(p.midpoint(q), p.lerp(q, 0.5 + SHORT)));
@@ -100,12 +100,12 @@ impl Lines<'_> {
 
     /// Returns the points of a path, and between them the nearest places on lines. Where the path comes to a
     /// line or leaves it, so do places before and after: the march tells only roughly where that is best.
-    fn beside_lines(&self, traced: &[DVec2]) -> Vec<Point> {
+    fn beside_lines(&self, traced: &[DVec2]) -> Vec<ChordPoint> {
         let middle = |piece: usize| traced[piece].midpoint(traced[piece + 1]);
         let places: Vec<Option<DVec2>> =
             (0..traced.len() - 1).map(|piece| self.place_on_line(middle(piece))).collect();
-        let mut points = vec![Point { at: traced[0], is_on_line: false }];
-        let on_line = |at: DVec2| Point { at, is_on_line: true };
+        let mut points = vec![ChordPoint { at: traced[0], is_on_line: false }];
+        let on_line = |at: DVec2| ChordPoint { at, is_on_line: true };
         for (piece, place) in places.iter().enumerate() {
             if let Some(at) = *place {
                 let before = piece.checked_sub(1).and_then(|before| places[before]);
@@ -120,7 +120,7 @@ impl Lines<'_> {
                     points.extend(self.places_farther(before, at).into_iter().map(on_line));
                 }
             }
-            points.push(Point { at: traced[piece + 1], is_on_line: false });
+            points.push(ChordPoint { at: traced[piece + 1], is_on_line: false });
         }
         points
     }
@@ -145,9 +145,9 @@ impl Lines<'_> {
     fn cheap_place(&self, t: u32, near: DVec2) -> Option<DVec2> {
         let enough = ABOUT * self.costs.least[t as usize];
         let mut open = BinaryHeap::new();
-        open.push(Candidate::new(self.density, self.mesh.rectangle(t), near, 0));
+        open.push(CheapRectangle::new(self.density, self.mesh.rectangle(t), near, 0));
         let mut looked_at = 0;
-        while let Some(Candidate { least, greatest, rectangle, depth, .. }) = open.pop() {
+        while let Some(CheapRectangle { least, greatest, rectangle, depth, .. }) = open.pop() {
             if least > enough || looked_at > MOST_RECTANGLES {
                 return None;
             }
@@ -165,7 +165,7 @@ impl Lines<'_> {
                 continue;
             }
             for corner in [min, max, dvec2(min.x, max.y), dvec2(max.x, min.y)] {
-                open.push(Candidate::new(self.density, Rect::spanning(corner, middle), near, depth + 1));
+                open.push(CheapRectangle::new(self.density, Rect::spanning(corner, middle), near, depth + 1));
                 looked_at += 1;
             }
         }
@@ -174,7 +174,7 @@ impl Lines<'_> {
 
     /// Returns the points of the polyline of least cost among those that leave out some of the given points.
     /// `None` where the walls admit none.
-    fn chords(&self, points: &[Point]) -> Option<Vec<Point>> {
+    fn chords(&self, points: &[ChordPoint]) -> Option<Vec<ChordPoint>> {
         let mut best = vec![(f64::INFINITY, 0); points.len()];
         best[0].0 = 0.0;
         for end in 1..points.len() {
@@ -219,7 +219,7 @@ impl Lines<'_> {
     }
 
     /// Returns this path with the parts between lines moved to where they cost less.
-    fn refined(&self, points: &[Point], effort: Effort) -> Vec<DVec2> {
+    fn refined(&self, points: &[ChordPoint], effort: Effort) -> Vec<DVec2> {
         let mut refined = vec![points[0].at];
         let mut first = 0;
         for last in 1..points.len() {
@@ -239,7 +239,7 @@ impl Lines<'_> {
 }
 
 /// A rectangle in which a cheap place may lie.
-struct Candidate {
+struct CheapRectangle {
     least: f64,
     greatest: f64,
     /// How often it was quartered.
@@ -249,7 +249,7 @@ struct Candidate {
     rectangle: Rect,
 }
 
-impl Candidate {
+impl CheapRectangle {
     fn new(density: &dyn CostDensity, rectangle: Rect, near: DVec2, depth: u32) -> Self {
         let range = density.range(&rectangle);
         let distance = near.distance_squared(near.clamp(rectangle.min, rectangle.max));
@@ -257,7 +257,7 @@ impl Candidate {
     }
 }
 
-impl Ord for Candidate {
+impl Ord for CheapRectangle {
     /// The greatest comes first: that of the least cost, of these the smallest, and then the nearest. With
     /// the nearest before the smallest, all rectangles that a line passes near the place would be divided.
     fn cmp(&self, other: &Self) -> Ordering {
@@ -265,14 +265,14 @@ impl Ord for Candidate {
         by_cost.then(self.depth.cmp(&other.depth)).then(other.distance.total_cmp(&self.distance))
     }
 }
-impl PartialOrd for Candidate {
+impl PartialOrd for CheapRectangle {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl PartialEq for Candidate {
+impl PartialEq for CheapRectangle {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
-impl Eq for Candidate {}
+impl Eq for CheapRectangle {}

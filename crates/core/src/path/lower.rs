@@ -6,15 +6,15 @@ use rayon::prelude::*;
 use super::Passage;
 use super::march::March;
 use super::path_mesh::PathMesh;
-use super::place::Place;
+use super::place::MeshPlace;
 use crate::mesh::Progress;
 
 /// A lower bound of the least cost of all paths between two places.
 ///
-/// Let v be a continuous function that is linear on each triangle with |∇v| ≤ F, the least cost there. Along
-/// any path, v grows by no more than the cost of the path, so v(goal) − v(start) is a bound. If |∇v| ≤ F/λ,
-/// the bound is λ (v(goal) − v(start)). The marches only propose functions v; the bound follows from the
-/// gradients of v alone.
+/// Let v be a subsolution of the eikonal equation: a continuous function that is linear on each triangle with
+/// |∇v| ≤ F, the least cost there. Along any path, v grows by no more than the cost of the path, so v(goal) −
+/// v(start) is a bound. If |∇v| ≤ F/λ, the bound is λ (v(goal) − v(start)). The marches only propose
+/// functions v; the bound follows from the gradients of v alone.
 ///
 /// 1. Paths that can be the best cost `upper` at most. Bounds of the distances from the start and from the
 ///    goal show through which triangles they go. Only there the gradient counts.
@@ -50,28 +50,28 @@ const ROUNDING: f64 = 1e-10;
 
 /// How often v is computed again with lowered costs, at most.
 const MOST_CORRECTIONS: usize = 8;
-/// v is not computed again where that can raise the bound by less than this share of the upper bound.
+/// v is computed again only where that can raise the bound by at least this share of the upper bound.
 const LEAST_GAIN: f64 = 5e-4;
 /// Marches go through triangles that can lie on paths of this many times the upper bound.
 const MARGIN: f64 = 1.05;
-/// A thread looks at so many triangles at a time.
+/// Number of triangles that a thread looks at at a time.
 const TOGETHER: usize = 4096;
 
 /// The problem whose minimum is bounded from below.
 struct Problem<'a> {
     mesh: &'a PathMesh,
     costs: &'a [f64],
-    start: Place,
-    goal: Place,
+    start: MeshPlace,
+    goal: MeshPlace,
 }
 
 impl LowerBound {
     /// Begins a bound, where `upper` is the cost of a path, and the marches went from the start and from the
-    /// goal through all triangles that are not closed. [`Self::raise`] goes on for the same places.
+    /// goal through all triangles that are not closed. [`Self::raise`] continues for the same places.
     pub fn new(
         mesh: &PathMesh,
         costs: &[f64],
-        [start, goal]: [Place; 2],
+        [start, goal]: [MeshPlace; 2],
         [us, ug]: [&March; 2],
         upper: f64,
     ) -> Self {
@@ -102,13 +102,13 @@ impl LowerBound {
         }
     }
 
-    /// Raises the bound by one function v, or accepts at most so many nodes in the march for it. Returns the
-    /// bound once that is all.
+    /// Raises the bound by one function v, or accepts a limited number of nodes in the march for it. Returns
+    /// the bound once that is all.
     pub fn raise(
         &mut self,
         mesh: &PathMesh,
         costs: &[f64],
-        [start, goal]: [Place; 2],
+        [start, goal]: [MeshPlace; 2],
         most: usize,
     ) -> Option<f64> {
         let problem = Problem { mesh, costs, start, goal };
@@ -212,7 +212,7 @@ impl Problem<'_> {
 
     /// Returns a function that is at most the distance from a place everywhere: λ · (max(u, r) − its value
     /// there), with the r that gives most at the other place, and λ by the gradients in all triangles.
-    fn clamped(&self, u: &[f64], from: Place, to: Place) -> Vec<f64> {
+    fn clamped(&self, u: &[f64], from: MeshPlace, to: MeshPlace) -> Vec<f64> {
         let total = to.interpolate(self.mesh, u);
         let limits: Vec<f64> = std::iter::once(0.0)
             .chain((0..CLAMPS).map(|n| total * f64::from(1 << n) / f64::from(1 << CLAMPS)))

@@ -7,8 +7,8 @@ use super::path_mesh::{NONE, PathMesh};
 use super::queue::Queue;
 use crate::mesh::Progress;
 
-/// The distance function of a cost that is constant on each triangle, to first order: fast marching on
-/// triangles \[KimmelSethian1998\].
+/// Solves the eikonal equation |∇u| = F, whose solution u is the least cost from the seeds, to first order
+/// for a cost F that is constant on each triangle: fast marching on triangles \[KimmelSethian1998\].
 ///
 /// A node takes the least over its triangles of
 ///
@@ -21,16 +21,15 @@ use crate::mesh::Progress;
 /// ```
 ///
 /// and of F · |a − c| from each accepted corner a; from the one accepted last only where no x between the
-/// corners is better. Where the angle at c is at most 90°, the condition holds
-/// but for rounding. It makes the result independent of the order of the work: nodes are accepted in the
-/// order of their values, then of their numbers, and the value of each follows from those before it. An
-/// obtuse angle at c is divided by the node d beyond the edge ab: c takes values from the edges ad and db as
-/// well.
+/// corners is better. Where the angle at c is at most 90°, the condition holds but for rounding. It makes the
+/// result independent of the order of the work: nodes are accepted by value, then by number, and the value of
+/// each follows from those accepted before. An obtuse angle at c is divided by the node d beyond the edge ab:
+/// c takes values from the edges ad and db as well.
 ///
 /// The arrays are reused from run to run.
 #[derive(Clone, Debug, Default)]
 pub struct March {
-    pub(super) nodes: Vec<Front>,
+    pub(super) nodes: Vec<NodeState>,
     pub(super) queue: Queue,
     /// How many nodes the last run accepted.
     pub(super) accepted_count: usize,
@@ -38,7 +37,7 @@ pub struct March {
 
 /// The state of a node in a march.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Front {
+pub(super) struct NodeState {
     pub at: DVec2,
     /// The least cost from a seed; infinite if no seed reaches the node.
     pub value: f64,
@@ -69,7 +68,7 @@ impl March {
     /// Begins to march from seeds.
     pub(super) fn begin(&mut self, mesh: &PathMesh, seeds: &[Seed]) {
         self.nodes.clear();
-        let fresh = |&at: &DVec2| Front { at, value: f64::INFINITY, from: NONE, is_accepted: false };
+        let fresh = |&at: &DVec2| NodeState { at, value: f64::INFINITY, from: NONE, is_accepted: false };
         self.nodes.extend(mesh.nodes.iter().map(fresh));
         self.queue.clear();
         self.accepted_count = 0;
@@ -78,13 +77,13 @@ impl March {
         }
     }
 
-    /// Goes on with a march that paused, with the same costs, until these nodes are accepted; without any, to
-    /// the end.
+    /// Continues a paused march, with the same costs, until these nodes are accepted; without any, to the
+    /// end.
     pub fn go_on(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, until: Option<[u32; 3]>) {
         _ = self.go_on_for(mesh, costs, least, until, usize::MAX);
     }
 
-    /// [`Self::go_on`], for at most so many nodes. Returns whether more are left.
+    /// [`Self::go_on`], for a limited number of nodes. Returns whether more are left.
     pub(super) fn go_on_for(
         &mut self,
         mesh: &PathMesh,
@@ -221,7 +220,7 @@ impl March {
             let k = (0..3).find(|&k| corners[k] == number).expect("the row of a node has its triangles");
             // The node may be d of the triangle across, or a or b of this one.
             for obtuse in [mesh.across[t as usize][(k + 1) % 3], t] {
-                let Some(kite) = Kite::of(mesh, obtuse, least) else { continue };
+                let Some(kite) = Kite::new(mesh, obtuse, least) else { continue };
                 let cost = costs[kite.triangles[0] as usize].max(costs[kite.triangles[1] as usize]);
                 for [a, b] in kite.edges.into_iter().filter(|edge| edge.contains(&number)) {
                     let [from_a, from_b, to] = [a, b, kite.apex].map(|n| self.nodes[n as usize]);
@@ -255,7 +254,7 @@ pub(super) struct Kite {
 
 impl Kite {
     /// `None` where the triangle has no obtuse angle, or the one across does not divide it.
-    pub fn of(mesh: &PathMesh, number: u32, least: Passage) -> Option<Self> {
+    pub fn new(mesh: &PathMesh, number: u32, least: Passage) -> Option<Self> {
         let triangle = mesh.triangles.get(number as usize)?;
         let c = usize::from(triangle.obtuse);
         if c == 3 || triangle.passage < least {
@@ -271,11 +270,11 @@ impl Kite {
     }
 }
 
-/// Returns the value at `to` along an edge from an accepted node. It is greater than the value there, also
-/// where the cost of the edge is lost in rounding: so each value comes from smaller ones, or from equal ones
-/// of nodes with smaller numbers, and a descent by them ends.
+/// Returns the value at `to` along an edge from an accepted node. It is greater than the value there, even
+/// where the cost of the edge is lost in rounding. So each value comes from smaller ones, or from equal ones
+/// of nodes with smaller numbers, and a descent along them ends.
 #[inline]
-pub(super) fn from_corner(from: &Front, to: &Front, cost: f64) -> f64 {
+pub(super) fn from_corner(from: &NodeState, to: &NodeState, cost: f64) -> f64 {
     (from.value + cost * from.at.distance(to.at)).max(from.value.next_up())
 }
 
@@ -283,10 +282,10 @@ pub(super) fn from_corner(from: &Front, to: &Front, cost: f64) -> f64 {
 /// end, or would be below the value of an end.
 #[inline]
 pub(super) fn through_edge(
-    a: &Front,
-    b: &Front,
+    a: &NodeState,
+    b: &NodeState,
     [number_a, number_b]: [u32; 2],
-    to: &Front,
+    to: &NodeState,
     number: u32,
     cost: f64,
 ) -> f64 {

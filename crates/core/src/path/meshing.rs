@@ -8,17 +8,17 @@ use super::path_mesh::PathMesh;
 use super::{Passage, PathArea};
 use crate::mesh::{MeshView, Progress};
 
-/// A thread compares so many triangles with the area at once.
+/// Number of triangles that a thread compares with the area at a time.
 const TOGETHER: usize = 1024;
 
 /// The work of [`PathMesh::in_area`], in slices.
 pub struct PathMeshing {
     mesh: PathMesh,
-    step: Step,
+    step: MeshingStep,
 }
 
 /// What is done next.
-enum Step {
+enum MeshingStep {
     /// Triangles from this one on are compared with the area.
     Compare(usize, Vec<Passage>),
     /// Triangles to bisect are looked for.
@@ -36,40 +36,40 @@ impl PathMeshing {
         let passage = |_: &[DVec2; 3], is_outside| if is_outside { Passage::Closed } else { Passage::Open };
         let mut mesh = PathMesh::with_passages(view, passage);
         mesh.area = area.clone();
-        let step = if area.is_everything() { Step::Find } else { Step::Compare(0, Vec::new()) };
+        let step = if area.is_everything() { MeshingStep::Find } else { MeshingStep::Compare(0, Vec::new()) };
         Self { mesh, step }
     }
 
-    /// Looks at about so many triangles. Returns the mesh at the end.
+    /// Looks at about `triangles` triangles. Returns the mesh at the end.
     pub fn advance(&mut self, triangles: usize) -> Option<PathMesh> {
         let Self { mesh, step } = self;
-        *step = match std::mem::replace(step, Step::Done) {
-            Step::Compare(first, mut passages) => {
+        *step = match std::mem::replace(step, MeshingStep::Done) {
+            MeshingStep::Compare(first, mut passages) => {
                 let end = first.saturating_add(triangles.max(1)).min(mesh.triangles.len());
                 let numbers = (first as u32..end as u32).into_par_iter().with_min_len(TOGETHER);
                 let more: Vec<Passage> = numbers.map(|number| passage_in_area(mesh, number)).collect();
                 passages.extend(more);
                 if end < mesh.triangles.len() {
-                    Step::Compare(end, passages)
+                    MeshingStep::Compare(end, passages)
                 } else {
                     close_outside_area(mesh, &passages);
-                    Step::Find
+                    MeshingStep::Find
                 }
             }
-            Step::Find => match RimDivision::new(mesh) {
-                Some(division) => Step::Divide(division),
+            MeshingStep::Find => match RimDivision::new(mesh) {
+                Some(division) => MeshingStep::Divide(division),
                 None => return Some(std::mem::take(mesh)),
             },
-            Step::Divide(mut division) => match division.advance(mesh, triangles.max(1)) {
-                Progress::More => Step::Divide(division),
-                Progress::Done if division.has_changed(mesh) => Step::Sort,
+            MeshingStep::Divide(mut division) => match division.advance(mesh, triangles.max(1)) {
+                Progress::More => MeshingStep::Divide(division),
+                Progress::Done if division.has_changed(mesh) => MeshingStep::Sort,
                 Progress::Done => return Some(std::mem::take(mesh)),
             },
-            Step::Sort => {
+            MeshingStep::Sort => {
                 mesh.sort_along_curve();
                 return Some(std::mem::take(mesh));
             }
-            Step::Done => Step::Done,
+            MeshingStep::Done => MeshingStep::Done,
         };
         None
     }

@@ -1,14 +1,14 @@
 //! Why a march did not reach a goal.
 
-use super::parts::Parts;
+use super::disjoint_sets::DisjointSets;
 use super::path_mesh::{PathMesh, PathTriangle};
-use super::place::Place;
+use super::place::MeshPlace;
 use super::{Passage, PathError, Waypoint};
 
 /// Returns why no path of finite cost leads between two places on a mesh.
-pub(super) fn obstacle(mesh: &PathMesh, places: [Place; 2], [from, to]: [Waypoint; 2]) -> PathError {
+pub(super) fn obstacle(mesh: &PathMesh, places: [MeshPlace; 2], [from, to]: [Waypoint; 2]) -> PathError {
     let mut open = parts(mesh, |triangle| triangle.passage == Passage::Open);
-    let node = |place: Place| place.corner_nodes(mesh)[0] as usize;
+    let node = |place: MeshPlace| place.corner_nodes(mesh)[0] as usize;
     let [home, aim] = places.map(|place| open.root(node(place)));
     if home == aim {
         return PathError::CostOutOfRange { at: places[0].point, value: f64::INFINITY };
@@ -25,9 +25,9 @@ pub(super) fn obstacle(mesh: &PathMesh, places: [Place; 2], [from, to]: [Waypoin
     PathError::Enclosed { which, from, to }
 }
 
-/// Returns the nodes in parts that hang together by the triangles that count.
-pub(super) fn parts(mesh: &PathMesh, counts: impl Fn(&PathTriangle) -> bool) -> Parts {
-    let mut parts = Parts::new(mesh.nodes.len());
+/// Returns the connected components of the nodes, joined by the triangles that count.
+pub(super) fn parts(mesh: &PathMesh, counts: impl Fn(&PathTriangle) -> bool) -> DisjointSets {
+    let mut parts = DisjointSets::new(mesh.nodes.len());
     for triangle in mesh.triangles.iter().filter(|triangle| counts(triangle)) {
         let [a, b, c] = triangle.corners.map(|node| node as usize);
         parts.join(a, b);

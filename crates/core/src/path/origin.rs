@@ -3,15 +3,15 @@
 use super::Passage;
 use super::march::{March, Seed};
 use super::path_mesh::{NONE, PathMesh};
-use super::place::Place;
-use super::shared::Shared;
+use super::place::MeshPlace;
+use super::shared::SharedParts;
 use crate::mesh::Progress;
 
 /// A march from a waypoint.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Origin {
+pub(super) struct WaypointMarch {
     pub march: March,
-    place: Option<Place>,
+    place: Option<MeshPlace>,
     seeds: Vec<Seed>,
     /// Whether the values are those of the costs as they are.
     is_current: bool,
@@ -19,8 +19,8 @@ pub(super) struct Origin {
     follows: bool,
 }
 
-impl Origin {
-    /// Marches from a place, as far as that is not done, and at most for so many nodes. Returns whether more
+impl WaypointMarch {
+    /// Marches from a place unless that is done already, for a limited number of nodes. Returns whether more
     /// are left. `until`: only to the corners of that place's triangle, unless the costs change again and
     /// again.
     pub fn run(
@@ -28,7 +28,7 @@ impl Origin {
         mesh: &PathMesh,
         costs: &[f64],
         least: Passage,
-        (place, until): (Place, Option<Place>),
+        (place, until): (MeshPlace, Option<MeshPlace>),
         most: usize,
     ) -> Progress {
         let seeds = place.seeds(mesh, costs);
@@ -61,11 +61,11 @@ impl Origin {
         [old, new]: [&PathMesh; 2],
         costs: &[f64],
         least: Passage,
-        (shared, changed): (&Shared, &[u32]),
+        (shared, changed): (&SharedParts, &[u32]),
     ) {
         self.follows = true;
         let triangle = |t: u32| shared.new_triangles[t as usize];
-        let place = self.place.map(|place| Place { triangle: triangle(place.triangle), ..place });
+        let place = self.place.map(|place| MeshPlace { triangle: triangle(place.triangle), ..place });
         self.place = place.filter(|place| place.triangle != NONE);
         let renumbered = |&(node, value): &Seed| (shared.new_nodes[node as usize], value);
         let seeds = self.place.map(|place| place.seeds(new, costs));

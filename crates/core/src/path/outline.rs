@@ -8,10 +8,10 @@ use super::path_mesh::{NONE, PathMesh};
 use super::{Corridor, Passage};
 
 /// A point of the outline: a node (twice), or the crossing on the edge from an inner node to an outer one.
-type Key = [u32; 2];
+type OutlinePoint = [u32; 2];
 
 /// A piece of the outline, with the corridor to its left.
-type Piece = [(Key, DVec2); 2];
+type OutlinePiece = [(OutlinePoint, DVec2); 2];
 
 impl Corridor {
     /// Returns the closed lines around the corridor of `share`, in world units. The last point of each equals
@@ -20,7 +20,7 @@ impl Corridor {
     /// They are the contours of the excess, which is linear on each triangle, and parts of the boundary of
     /// the open triangles.
     pub fn outlines(&self, mesh: &PathMesh, share: f64) -> Vec<Vec<DVec2>> {
-        let mut pieces: Vec<Piece> = Vec::new();
+        let mut pieces: Vec<OutlinePiece> = Vec::new();
         for t in (0..mesh.triangle_count() as u32).filter(|&t| mesh.passage(t) == Passage::Open) {
             self.add_pieces(mesh, t, share, &mut pieces);
         }
@@ -28,7 +28,7 @@ impl Corridor {
     }
 
     /// Adds the pieces of the outline in a triangle.
-    fn add_pieces(&self, mesh: &PathMesh, t: u32, share: f64, pieces: &mut Vec<Piece>) {
+    fn add_pieces(&self, mesh: &PathMesh, t: u32, share: f64, pieces: &mut Vec<OutlinePiece>) {
         let corners = mesh.triangles[t as usize].corners;
         let is_inside = corners.map(|node| self.excess()[node as usize] <= share);
         if is_inside == [false; 3] {
@@ -64,7 +64,7 @@ impl Corridor {
     }
 
     /// Returns where the excess is `share` on the edge from an inner node to an outer one.
-    fn crossing(&self, mesh: &PathMesh, inner: u32, outer: u32, share: f64) -> (Key, DVec2) {
+    fn crossing(&self, mesh: &PathMesh, inner: u32, outer: u32, share: f64) -> (OutlinePoint, DVec2) {
         let [low, high] = [inner, outer].map(|node| self.excess()[node as usize]);
         let [from, to] = [inner, outer].map(|node| mesh.nodes[node as usize]);
         ([inner, outer], from.lerp(to, (share - low) / (high - low)))
@@ -72,8 +72,8 @@ impl Corridor {
 }
 
 /// Joins pieces to closed lines.
-fn chained(pieces: &[Piece]) -> Vec<Vec<DVec2>> {
-    let mut from: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+fn chained(pieces: &[OutlinePiece]) -> Vec<Vec<DVec2>> {
+    let mut from: BTreeMap<OutlinePoint, Vec<usize>> = BTreeMap::new();
     for (number, [(start, _), _]) in pieces.iter().enumerate() {
         from.entry(*start).or_default().push(number);
     }

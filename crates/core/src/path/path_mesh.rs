@@ -26,7 +26,7 @@ pub enum Passage {
     Open,
 }
 
-/// The triangles of a mesh for paths: nodes in world units, who is next to whom, and where paths may go.
+/// The triangles of a mesh for paths: nodes in world units, adjacency, and where paths may go.
 ///
 /// Nodes and triangles are numbered along a curve, so that neighbours mostly lie together in memory.
 #[derive(Clone, Debug, Default)]
@@ -41,7 +41,7 @@ pub struct PathMesh {
     /// Whether the triangles cover the whole rectangle of the mesh, but for what the area leaves out: then no
     /// path through the domain leaves them.
     pub(super) covers_domain: bool,
-    /// Both are made when they are first needed: a mesh that is only bisected further needs neither.
+    /// Both are made on first use: a mesh that is only bisected further needs neither.
     boxes: OnceLock<BoxRuns>,
     rows: OnceLock<NodeRows>,
 }
@@ -159,7 +159,7 @@ impl PathMesh {
         mesh
     }
 
-    /// Returns a copy with room for so many more triangles, and nothing derived from them yet.
+    /// Returns a copy with room for `more` further triangles, and nothing derived from them yet.
     pub(super) fn with_room(&self, more: usize) -> Self {
         let (nodes, triangles) = (with_room(&self.nodes, more), with_room(&self.triangles, more));
         self.with_triangles(nodes, triangles, with_room(&self.across, more))
@@ -332,7 +332,7 @@ impl PathMesh {
     }
 }
 
-/// Returns a copy of values with room for so many more.
+/// Returns a copy of values with room for `more` further ones.
 fn with_room<T: Copy>(values: &[T], more: usize) -> Vec<T> {
     let mut copy = Vec::with_capacity(values.len() + more);
     copy.extend_from_slice(values);

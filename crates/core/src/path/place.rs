@@ -9,14 +9,14 @@ use crate::geometry::{Side, side_of_points};
 
 /// A point in one of the open triangles that contain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct MeshPlace {
     /// The point in world units.
     pub point: DVec2,
     /// The triangle.
     pub triangle: u32,
 }
 
-impl Place {
+impl MeshPlace {
     /// Finds a waypoint. A point that lies outside only by rounding is moved into its triangle, by as little
     /// as numbers allow.
     ///
@@ -37,7 +37,7 @@ impl Place {
 
     /// Returns the corners of its triangle, and those beyond its edges to which a segment leads through two
     /// open triangles, with the costs of the segments: where a march begins. From the corners alone, a march
-    /// would find a place on an edge to be as far as if the way led by one of the ends.
+    /// would measure the distance of a place on an edge by way of one of the ends.
     pub fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> Vec<Seed> {
         let triangle = &mesh.triangles[self.triangle as usize];
         let cost = costs[self.triangle as usize];

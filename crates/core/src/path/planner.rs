@@ -7,11 +7,11 @@ use rayon::prelude::*;
 
 use super::adaptation::Adaptation;
 use super::leg::LegSearch;
-use super::lines::Lines;
+use super::lines::LineSearch;
 use super::march::March;
-use super::origin::Origin;
+use super::origin::WaypointMarch;
 use super::path_mesh::PathMesh;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::planning::Planning;
 use super::refine::{Effort, refine};
 use super::trace::{trace, trace_by_nodes};
@@ -43,8 +43,8 @@ impl PathRequest {
 /// The mesh is bisected further where the cost varies much within a triangle. The path follows the march with
 /// the mean cost of each triangle, and bounds the marches with its least cost.
 ///
-/// The marches from the waypoints are kept: another path between the same places, after the cost changed in
-/// some triangles, computes again only what the change can reach.
+/// The marches from the waypoints are kept: for another path between the same places after the cost changed
+/// in some triangles, only what the change can reach is recomputed.
 #[derive(Clone, Debug)]
 pub struct Planner {
     pub(super) mesh: Arc<PathMesh>,
@@ -53,19 +53,19 @@ pub struct Planner {
     pub(super) adaptation: Option<Adaptation>,
     pub(super) costs: TriangleCosts,
     /// Marches with mean costs through open triangles, one for each waypoint.
-    pub(super) origins: Vec<Origin>,
+    pub(super) origins: Vec<WaypointMarch>,
     /// Marches with least costs through all triangles that are not closed, one for each waypoint.
-    pub(super) origins_for_bounds: Vec<Origin>,
+    pub(super) origins_for_bounds: Vec<WaypointMarch>,
 }
 
 /// A march from a place.
 struct Marching<'a> {
-    origin: &'a mut Origin,
+    origin: &'a mut WaypointMarch,
     costs: &'a [f64],
     least: Passage,
-    place: Place,
+    place: MeshPlace,
     /// Where it may pause.
-    until: Option<Place>,
+    until: Option<MeshPlace>,
 }
 
 impl Planner {
@@ -140,11 +140,11 @@ impl Planner {
     pub(super) fn legs_between(
         &mut self,
         density: &dyn CostDensity,
-        places: &[Place],
+        places: &[MeshPlace],
         request: PathRequest,
     ) -> Result<Vec<Solution>, PathError> {
         self.march_from(places, false, request.has_bounds);
-        let leg = |(leg, pair): (usize, &[Place])| {
+        let leg = |(leg, pair): (usize, &[MeshPlace])| {
             let mut search = LegSearch::new(leg, [pair[0], pair[1]], request);
             loop {
                 if let Some(found) = search.advance(self, density, places.len(), usize::MAX)? {
@@ -157,11 +157,11 @@ impl Planner {
         legs.into_iter().collect()
     }
 
-    /// Accepts at most so many nodes in the march with this number of those from the places. Returns whether
-    /// more are left; `None` where there is no such march.
+    /// Accepts a limited number of nodes in the march from one of the places, given by its number. Returns
+    /// whether more are left; `None` where there is no such march.
     pub(super) fn march_one(
         &mut self,
-        places: &[Place],
+        places: &[MeshPlace],
         has_bounds: bool,
         number: usize,
         most: usize,
@@ -174,23 +174,23 @@ impl Planner {
     }
 
     /// Returns the places on the mesh.
-    pub(super) fn places(&self, places: &[DVec2]) -> Result<Vec<Place>, PathError> {
+    pub(super) fn places(&self, places: &[DVec2]) -> Result<Vec<MeshPlace>, PathError> {
         if places.len() < 2 {
             return Err(PathError::TooFewPlaces);
         }
         let find =
-            |(n, &point): (usize, &DVec2)| Place::find(&self.mesh, point, Waypoint::of(n, places.len()));
+            |(n, &point): (usize, &DVec2)| MeshPlace::find(&self.mesh, point, Waypoint::of(n, places.len()));
         places.iter().enumerate().map(find).collect()
     }
 
     /// Marches from each place; to the end from all of them with `complete`.
-    pub(super) fn march(&mut self, places: &[Place], complete: bool) {
+    pub(super) fn march(&mut self, places: &[MeshPlace], complete: bool) {
         self.march_from(places, complete, false);
     }
 
     /// [`Self::march`], and for bounds to the end from each place with the least costs. Each march is the
     /// work of one thread.
-    fn march_from(&mut self, places: &[Place], complete: bool, has_bounds: bool) {
+    fn march_from(&mut self, places: &[MeshPlace], complete: bool, has_bounds: bool) {
         self.resize_origins(places.len(), has_bounds);
         let mesh = Arc::clone(&self.mesh);
         let marches = self.marches(places, complete, has_bounds);
@@ -200,14 +200,14 @@ impl Planner {
     }
 
     fn resize_origins(&mut self, count: usize, has_bounds: bool) {
-        self.origins.resize_with(count, Origin::default);
+        self.origins.resize_with(count, WaypointMarch::default);
         if has_bounds {
-            self.origins_for_bounds.resize_with(count, Origin::default);
+            self.origins_for_bounds.resize_with(count, WaypointMarch::default);
         }
     }
 
     /// Returns what [`Self::march_from`] does.
-    fn marches(&mut self, places: &[Place], complete: bool, has_bounds: bool) -> Vec<Marching<'_>> {
+    fn marches(&mut self, places: &[MeshPlace], complete: bool, has_bounds: bool) -> Vec<Marching<'_>> {
         let Self { costs, origins, origins_for_bounds, .. } = self;
         // No leg begins at the last place.
         let starts = if complete { places.len() } else { places.len() - 1 };
@@ -248,25 +248,25 @@ impl Planner {
     /// Returns a polyline that the walls admit, with its figures.
     pub(super) fn solution(&self, points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Solution {
         debug_assert!(self.walls.admit_all(&points), "a path leaves the open triangles: {points:?}");
-        Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::of(points, density, tolerance) }
+        Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::new(points, density, tolerance) }
     }
 
-    /// Begins a march from the goal as far as the start. It errs elsewhere than one from the start, and can
-    /// find the better one of two ways that cost nearly the same.
-    pub(super) fn begin_back(&self, goal: Place) -> March {
+    /// Begins a march from the goal to the start. Its errors differ from those of a march from the start, so
+    /// that it can find the better one of two ways that cost nearly the same.
+    pub(super) fn begin_back(&self, goal: MeshPlace) -> March {
         let mut march = March::default();
         march.begin(&self.mesh, &goal.seeds(&self.mesh, &self.costs.mean));
         march
     }
 
-    /// Accepts at most so many nodes in the march from the goal. Returns whether more are left.
-    pub(super) fn march_back(&self, march: &mut March, start: Place, most: usize) -> Progress {
+    /// Accepts at most `most` nodes in the march from the goal. Returns whether more are left.
+    pub(super) fn march_back(&self, march: &mut March, start: MeshPlace, most: usize) -> Progress {
         let until = Some(start.corner_nodes(&self.mesh));
         march.go_on_for(&self.mesh, &self.costs.mean, Passage::Open, until, most)
     }
 
     /// The path that a march from the goal leads to.
-    pub(super) fn traced_back(&self, march: &March, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
+    pub(super) fn traced_back(&self, march: &March, [start, goal]: [MeshPlace; 2]) -> Option<Vec<DVec2>> {
         let mut traced = trace(&self.mesh, &self.costs.mean, march, [goal, start])?;
         traced.reverse();
         self.walls.admit_all(&traced).then_some(traced)
@@ -276,16 +276,16 @@ impl Planner {
     pub(super) fn along_lines(
         &self,
         density: &dyn CostDensity,
-        ends: [Place; 2],
+        ends: [MeshPlace; 2],
         known: f64,
     ) -> Option<Vec<DVec2>> {
         let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
-        let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
+        let lines = LineSearch { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
         lines.path(ends, known, Effort::FULL)
     }
 
     /// Returns the path that a march leads to, through open triangles only.
-    pub(super) fn traced(&self, leg: usize, ends: [Place; 2]) -> Option<Vec<DVec2>> {
+    pub(super) fn traced(&self, leg: usize, ends: [MeshPlace; 2]) -> Option<Vec<DVec2>> {
         let march = &self.origins[leg].march;
         let traced = trace(&self.mesh, &self.costs.mean, march, ends)?;
         // In triangles as small as rounding, a point beside an edge may belong to a third one.

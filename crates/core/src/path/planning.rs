@@ -7,7 +7,7 @@ use super::path_mesh::PathMesh;
 use super::triangle_costs::TriangleCost;
 use super::{CostDensity, PathError, Planner};
 
-/// One thread computes the costs of so many triangles in a step.
+/// Number of triangles whose costs one thread computes in a step.
 const AT_ONCE: usize = 2048;
 
 /// The work of [`Planner::new`] in steps. Where there are more threads than one, they compute all costs in
@@ -25,7 +25,7 @@ impl Planning {
         Self { mesh: mesh.into(), costs: Vec::new() }
     }
 
-    /// Takes a step. Returns the planner at the end. The cost density is always the same.
+    /// Takes a step. Returns the planner at the end. Every call must get the same cost density.
     ///
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.

@@ -1,10 +1,10 @@
 //! A queue of nodes by value, then by number.
 
-/// The nodes that wait, smallest value first; of equal values the node with the lower number.
+/// The priority queue of nodes, smallest value first; of equal values, the node with the lower number.
 ///
-/// A march takes values that rise, and puts values a little above the one that it took. So most entries wait
-/// unsorted in buckets of equal width, and are sorted when it is the turn of their bucket. A node is put
-/// again when its value falls: entries with an old value leave with their bucket, before anything is sorted.
+/// A march takes ascending values, and adds values a little above the one that it took. So most entries wait
+/// unsorted in buckets of equal width, each of which is sorted when its turn comes. A node is added again
+/// when its value falls: entries with an old value are dropped with their bucket, before anything is sorted.
 ///
 /// ```text
 ///   sorted, heap        buckets, each after the ones before it        far
@@ -16,12 +16,12 @@
 #[derive(Clone, Debug, Default)]
 pub(super) struct Queue {
     /// What is left of the open bucket, the first last.
-    sorted: Vec<Entry>,
+    sorted: Vec<QueueEntry>,
     /// What was put for the open bucket, or one before it, since it is open.
     heap: Heap,
     /// So many entries in the heap ask for narrower buckets.
     most_in_heap: usize,
-    buckets: Vec<Vec<Entry>>,
+    buckets: Vec<Vec<QueueEntry>>,
     /// A bit for each bucket with entries.
     occupied: [u64; BUCKETS / 64],
     /// The number of the open bucket.
@@ -30,27 +30,27 @@ pub(super) struct Queue {
     start: f64,
     /// How many buckets there are for values that differ by 1. At 0, all are in the first.
     per_unit: f64,
-    far: Vec<Entry>,
+    far: Vec<QueueEntry>,
 }
 
 /// The bits of a value from 0, which have its order, and the number of the node.
-type Entry = u128;
+type QueueEntry = u128;
 
 const BUCKETS: usize = 256;
-/// Buckets are so wide that about so many entries are in one.
+/// Buckets are so wide that about this number of entries is in one.
 const IN_A_BUCKET: f64 = 32.0;
 /// A heap with fewer entries is as fast as buckets are.
 const MOST_IN_HEAP: usize = 256;
 
-fn entry(value: f64, node: u32) -> Entry {
+fn entry(value: f64, node: u32) -> QueueEntry {
     u128::from(value.to_bits()) << 32 | u128::from(node)
 }
 
-fn value_of(entry: Entry) -> f64 {
+fn value_of(entry: QueueEntry) -> f64 {
     f64::from_bits((entry >> 32) as u64)
 }
 
-fn node_of(entry: Entry) -> u32 {
+fn node_of(entry: QueueEntry) -> u32 {
     entry as u32
 }
 
@@ -86,7 +86,7 @@ impl Queue {
     }
 
     #[inline]
-    fn put_later(&mut self, bucket: usize, entry: Entry) {
+    fn put_later(&mut self, bucket: usize, entry: QueueEntry) {
         if bucket < BUCKETS {
             self.buckets[bucket].push(entry);
             self.occupied[bucket / 64] |= 1 << (bucket % 64);
@@ -146,7 +146,7 @@ impl Queue {
     /// Divides entries among buckets, whose width follows from those of the first half. All others must be
     /// empty. Returns whether there are any entries.
     #[cold]
-    fn divide(&mut self, mut entries: Vec<Entry>) -> bool {
+    fn divide(&mut self, mut entries: Vec<QueueEntry>) -> bool {
         let Some(&first) = entries.iter().min() else { return false };
         let middle = entries.len() / 2;
         let (_, &mut half, _) = entries.select_nth_unstable(middle);
@@ -171,13 +171,14 @@ impl Queue {
     }
 }
 
-/// A heap in which each entry has four below it: fewer levels than with two, and the four lie together.
+/// A 4-ary heap: it has fewer levels than a binary one, and the four children of an entry are adjacent in
+/// memory.
 #[derive(Clone, Debug, Default)]
-struct Heap(Vec<Entry>);
+struct Heap(Vec<QueueEntry>);
 
 impl Heap {
     #[inline]
-    fn put(&mut self, entry: Entry) {
+    fn put(&mut self, entry: QueueEntry) {
         let mut hole = self.0.len();
         self.0.push(entry);
         while hole > 0 {
@@ -192,7 +193,7 @@ impl Heap {
     }
 
     #[inline]
-    fn take(&mut self) -> Option<Entry> {
+    fn take(&mut self) -> Option<QueueEntry> {
         let last = self.0.pop()?;
         let Some(&first) = self.0.first() else { return Some(last) };
         let entries = &mut self.0[..];

@@ -26,11 +26,11 @@ impl Effort {
     pub(super) const SKETCH: Self = Self { pieces: &[32], steps: 8 };
 }
 
-/// Pieces of a path with one cost per metre on the Earth. It is hardly bent in the plane, and a person who
-/// follows it wants few points: with this many the cost is off by 10⁻⁶ at most.
+/// Pieces of a path with one cost per metre on the Earth. Such a path hardly bends in the plane, and a person
+/// who follows it wants few points: with this many, the error of the cost is at most 10⁻⁶.
 const MOST_OF_GEODESIC: usize = 128;
 
-/// Returns a path of less cost near a polyline that the walls admit; they admit it, too.
+/// Returns a path of lower cost near a polyline. If the walls admit the polyline, they admit the path, too.
 ///
 /// Its vertices move along their normals only: along the path they would slide together. Each round divides
 /// the pieces and takes some steps of Newton's method with damping; the matrix is tridiagonal, because a
@@ -55,29 +55,29 @@ pub(super) fn refine(
 pub(super) struct Refining {
     points: Vec<DVec2>,
     effort: Effort,
-    stage: Stage,
+    stage: RefiningStage,
 }
 
 /// What is done next.
 #[derive(Clone, Copy, Debug)]
-enum Stage {
+enum RefiningStage {
     Begin,
-    /// The first of so many rounds begins.
+    /// The first of these rounds begins.
     Divide(&'static [usize]),
-    /// Vertices move: so many steps, then these rounds.
+    /// Vertices move: the number of steps, then these rounds.
     Relax(Relaxing, usize, &'static [usize]),
 }
 
 impl Refining {
     pub fn new(points: Vec<DVec2>, effort: Effort) -> Self {
-        Self { points, effort, stage: Stage::Begin }
+        Self { points, effort, stage: RefiningStage::Begin }
     }
 
-    /// Takes a step. Returns the path at the end. Cost and walls are always the same.
+    /// Takes a step. Returns the path at the end. Every call must get the same cost and walls.
     pub fn advance(&mut self, density: &dyn CostDensity, walls: &Walls) -> Option<Vec<DVec2>> {
         let Self { points, effort, stage } = self;
         *stage = match *stage {
-            Stage::Begin => {
+            RefiningStage::Begin => {
                 let Some(&first) = effort.pieces.first() else { return Some(std::mem::take(points)) };
                 *points = taut(&thin_out(points, walls, first), density, walls);
                 if is_constant_along(points, |rectangle| density.range(rectangle)) {
@@ -86,22 +86,22 @@ impl Refining {
                 let is_geodesic = is_constant_along(points, |rectangle| density.range_on_ground(rectangle));
                 let most = if is_geodesic { MOST_OF_GEODESIC } else { usize::MAX };
                 let rounds = effort.pieces.iter().take_while(|&&pieces| pieces <= most).count();
-                Stage::Divide(&effort.pieces[..rounds])
+                RefiningStage::Divide(&effort.pieces[..rounds])
             }
-            Stage::Divide([]) => return Some(taut(points, density, walls)),
-            Stage::Divide([pieces, rounds @ ..]) => {
+            RefiningStage::Divide([]) => return Some(taut(points, density, walls)),
+            RefiningStage::Divide([pieces, rounds @ ..]) => {
                 divide(points, walls, *pieces);
                 let relaxation = Relaxation { points, density, walls };
                 match relaxation.begin() {
-                    Some(relaxing) => Stage::Relax(relaxing, effort.steps, rounds),
-                    None => Stage::Divide(rounds),
+                    Some(relaxing) => RefiningStage::Relax(relaxing, effort.steps, rounds),
+                    None => RefiningStage::Divide(rounds),
                 }
             }
-            Stage::Relax(_, 0, rounds) => Stage::Divide(rounds),
-            Stage::Relax(mut relaxing, steps, rounds) => {
+            RefiningStage::Relax(_, 0, rounds) => RefiningStage::Divide(rounds),
+            RefiningStage::Relax(mut relaxing, steps, rounds) => {
                 match (Relaxation { points, density, walls }).step(&mut relaxing) {
-                    Progress::More => Stage::Relax(relaxing, steps - 1, rounds),
-                    Progress::Done => Stage::Divide(rounds),
+                    Progress::More => RefiningStage::Relax(relaxing, steps - 1, rounds),
+                    Progress::Done => RefiningStage::Divide(rounds),
                 }
             }
         };
@@ -168,7 +168,7 @@ struct Relaxing {
 
 /// The derivatives of the cost by the moves of the inner vertices.
 #[derive(Default)]
-struct Quadratic {
+struct QuadraticCost {
     gradient: Vec<f64>,
     diagonal: Vec<f64>,
     /// The matrix entries between a vertex and the next one.
@@ -272,10 +272,13 @@ impl Relaxation<'_> {
     }
 
     /// Derivatives by differences over a tenth of the length of the piece.
-    fn quadratic(&self, normals: &[DVec2]) -> Quadratic {
+    fn quadratic(&self, normals: &[DVec2]) -> QuadraticCost {
         let count = self.points.len();
-        let mut result =
-            Quadratic { gradient: vec![0.0; count], diagonal: vec![0.0; count], beside: vec![0.0; count] };
+        let mut result = QuadraticCost {
+            gradient: vec![0.0; count],
+            diagonal: vec![0.0; count],
+            beside: vec![0.0; count],
+        };
         for n in 0..count - 1 {
             let [p, q] = [self.points[n], self.points[n + 1]];
             let step = 0.1 * p.distance(q);
@@ -341,7 +344,7 @@ impl Relaxation<'_> {
     }
 }
 
-impl Quadratic {
+impl QuadraticCost {
     /// Returns the moves that lead to the least value of the quadratic function with a damped diagonal, by
     /// elimination. Where the diagonal is not positive, more is added.
     fn solve(&self, damping: f64) -> Vec<f64> {

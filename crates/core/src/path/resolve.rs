@@ -1,9 +1,9 @@
 //! A march after the costs of some triangles changed.
 
 use super::Passage;
-use super::march::{Front, Kite, March, Seed, from_corner, through_edge};
+use super::march::{Kite, March, NodeState, Seed, from_corner, through_edge};
 use super::path_mesh::{NONE, PathMesh};
-use super::shared::Shared;
+use super::shared::SharedParts;
 
 impl March {
     /// Brings the values up to date after the costs of some triangles changed, and returns how many nodes
@@ -11,10 +11,10 @@ impl March {
     /// end.
     ///
     /// The values are those of a new run, bit for bit. A node whose value came from a changed triangle, or
-    /// from a node whose value changes, loses its value. Then the march goes on from the others, and nodes
-    /// that were accepted may fall. Each that falls takes the values of those that depend on it, so a node
-    /// can be accepted several times: after half as many times as there are nodes, or where more than half of
-    /// the nodes lose their values at once, a new march is faster.
+    /// from a node whose value changes, loses its value. Then the march continues from the others, and the
+    /// values of accepted nodes may fall. A node whose value falls takes away the values of those that depend
+    /// on it, so a node can be accepted several times: once half as many nodes as there are were accepted, or
+    /// where more than half of the nodes lose their values at once, a new march is faster.
     pub fn resolve(
         &mut self,
         mesh: &PathMesh,
@@ -26,21 +26,21 @@ impl March {
         self.go_on_without(mesh, costs, least, seeds, (changed, &[]))
     }
 
-    /// Goes over to a mesh that shares triangles with the one before, and brings the values up to date as
+    /// Moves to a mesh that shares triangles with the previous one, and brings the values up to date as
     /// [`Self::resolve`] does, with the same result. `changed` has the triangles that are new, and those
-    /// whose cost or passage is another one.
+    /// whose cost or passage changed.
     pub(super) fn move_to(
         &mut self,
         [old, mesh]: [&PathMesh; 2],
         costs: &[f64],
         least: Passage,
         seeds: &[Seed],
-        (shared, changed): (&Shared, &[u32]),
+        (shared, changed): (&SharedParts, &[u32]),
     ) -> usize {
         let mut lost = Vec::new();
         let before = std::mem::take(&mut self.nodes);
         for ((number, &at), &known) in (0..).zip(&mesh.nodes).zip(&shared.nodes) {
-            let unknown = Front { at, value: f64::INFINITY, from: NONE, is_accepted: false };
+            let unknown = NodeState { at, value: f64::INFINITY, from: NONE, is_accepted: false };
             let mut front = before.get(known as usize).copied().unwrap_or(unknown);
             if front.from != NONE {
                 if !is_kept([old, mesh], front.from, shared) {
@@ -53,7 +53,7 @@ impl March {
         self.go_on_without(mesh, costs, least, seeds, (changed, &lost))
     }
 
-    /// Goes on after the values from `changed` triangles, and those of `lost` nodes, ceased to hold.
+    /// Continues after the values from `changed` triangles and those of `lost` nodes became invalid.
     fn go_on_without(
         &mut self,
         mesh: &PathMesh,
@@ -62,7 +62,7 @@ impl March {
         seeds: &[Seed],
         (changed, lost): (&[u32], &[u32]),
     ) -> usize {
-        let mut edit = Edit { march: self, mesh, costs, least, seeds, lost: Vec::new() };
+        let mut edit = MarchEdit { march: self, mesh, costs, least, seeds, lost: Vec::new() };
         edit.march.queue.clear();
         edit.march.accepted_count = 0;
         lost.iter().for_each(|&node| edit.lose(node));
@@ -94,7 +94,7 @@ impl March {
 
 /// Returns whether values from a triangle of an old mesh may still come from it: both meshes have it, and
 /// where it has an obtuse angle, the one across.
-fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &Shared) -> bool {
+fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &SharedParts) -> bool {
     let Some(kept) = new.triangles.get(shared.new_triangles[t as usize] as usize) else { return false };
     let obtuse = usize::from(kept.obtuse);
     let across = |mesh: &PathMesh, t: u32| mesh.across[t as usize][(obtuse + 1) % 3];
@@ -105,7 +105,7 @@ fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &Shared) -> bool {
     of_old == NONE || shared.new_triangles[of_old as usize] == of_new
 }
 
-struct Edit<'a> {
+struct MarchEdit<'a> {
     march: &'a mut March,
     mesh: &'a PathMesh,
     costs: &'a [f64],
@@ -115,8 +115,8 @@ struct Edit<'a> {
     lost: Vec<u32>,
 }
 
-impl Edit<'_> {
-    fn front(&self, node: u32) -> Front {
+impl MarchEdit<'_> {
+    fn front(&self, node: u32) -> NodeState {
         self.march.nodes[node as usize]
     }
 
@@ -168,7 +168,7 @@ impl Edit<'_> {
             if self.mesh.has_obtuse {
                 let k = (0..3).find(|&k| corners[k] == number).expect("rows have the triangles of a node");
                 let across = self.mesh.across[t as usize][(k + 1) % 3];
-                if let Some(kite) = Kite::of(self.mesh, across, self.least) {
+                if let Some(kite) = Kite::new(self.mesh, across, self.least) {
                     add(kite.apex, across);
                 }
             }
@@ -218,7 +218,7 @@ impl Edit<'_> {
         }
         self.offer(node, value, t);
         if usize::from(triangle.obtuse) == k
-            && let Some(kite) = Kite::of(self.mesh, t, self.least)
+            && let Some(kite) = Kite::new(self.mesh, t, self.least)
         {
             self.offer_through(&kite, t);
         }
@@ -268,7 +268,7 @@ impl Edit<'_> {
                 let k = (0..3).find(|&k| triangle.corners[k] == number).expect("a corner of the triangle");
                 let across = self.mesh.across[t as usize][(k + 1) % 3];
                 for obtuse in [across, t] {
-                    if let Some(kite) = Kite::of(self.mesh, obtuse, self.least) {
+                    if let Some(kite) = Kite::new(self.mesh, obtuse, self.least) {
                         self.offer_through(&kite, obtuse);
                     }
                 }

@@ -1,9 +1,9 @@
 //! Marches that follow edits are compared with new ones.
 
 use super::Passage;
-use super::march::{Front, Kite, March, through_edge};
+use super::march::{Kite, March, NodeState, through_edge};
 use super::path_mesh::{PathMesh, obtuse_corner};
-use super::shared::Shared;
+use super::shared::SharedParts;
 use crate::geometry::{Lattice, Rect};
 use crate::mesh::{Limits, Mesh};
 
@@ -63,8 +63,8 @@ fn move_nodes(mesh: &mut PathMesh, seed: u64) {
 
 /// Returns the triangles across from obtuse angles through which values came.
 fn crossed_by_kites(march: &March, mesh: &PathMesh, costs: &[f64]) -> Vec<u32> {
-    let crossed = |(number, node): (u32, &Front)| {
-        let kite = Kite::of(mesh, node.from, Passage::Open).filter(|kite| kite.apex == number)?;
+    let crossed = |(number, node): (u32, &NodeState)| {
+        let kite = Kite::new(mesh, node.from, Passage::Open).filter(|kite| kite.apex == number)?;
         let cost = kite.triangles.map(|t| costs[t as usize]);
         let is_from = |&[a, b]: &[u32; 2]| {
             let [from_a, from_b] = [a, b].map(|n| march.nodes[n as usize]);
@@ -118,7 +118,7 @@ fn a_march_goes_over_to_another_mesh_bit_for_bit() {
                 new_costs[random.usize(..new.triangle_count())] *= [0.3, 3.0][random.usize(..2)];
             }
             let Some(seeds) = seeds(&new) else { break };
-            let shared = Shared::of(&known, &new);
+            let shared = SharedParts::between(&known, &new);
             let is_changed = |&t: &u32| {
                 let known = shared.triangles[t as usize] as usize;
                 known_costs.get(known).is_none_or(|&cost| cost != new_costs[t as usize])
@@ -202,7 +202,7 @@ fn a_start_whose_value_came_from_elsewhere_gets_its_own_again() {
         let [first, second] = [(); 2].map(|()| random.u32(0..mesh.node_count() as u32));
         let mut march = March::default();
         march.run(&mesh, &costs, Passage::Open, &[(first, 0.0)], None);
-        let Front { value, from, .. } = march.nodes[second as usize];
+        let NodeState { value, from, .. } = march.nodes[second as usize];
         if first == second {
             continue;
         }

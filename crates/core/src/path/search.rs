@@ -1,7 +1,7 @@
 //! The work of a planner in steps.
 
 use super::leg::LegSearch;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::{CostDensity, PathError, PathRequest, Planner, Solution};
 use crate::mesh::Progress;
 use glam::DVec2;
@@ -9,15 +9,15 @@ use glam::DVec2;
 /// The work of [`Planner::solve`] in steps. Where there are more threads than one, they do it in one step.
 #[derive(Clone, Debug)]
 pub struct PathSearch {
-    places: Vec<Place>,
+    places: Vec<MeshPlace>,
     request: PathRequest,
-    step: Step,
+    step: SearchStep,
     found: Vec<Solution>,
 }
 
 /// What is done next.
 #[derive(Clone, Debug)]
-enum Step {
+enum SearchStep {
     /// The march with this number.
     March(usize),
     Leg(Box<LegSearch>),
@@ -34,11 +34,11 @@ impl PathSearch {
     /// Fails when a place is not in the domain.
     pub fn new(planner: &Planner, places: &[DVec2], request: PathRequest) -> Result<Self, PathError> {
         let places = planner.places(places)?;
-        Ok(Self { places, request, step: Step::March(0), found: Vec::new() })
+        Ok(Self { places, request, step: SearchStep::March(0), found: Vec::new() })
     }
 
-    /// Takes a step, in which a march accepts at most so many nodes. Returns the path at the end, which is
-    /// that of [`Planner::solve`]. Planner and cost are always the same, and nobody else uses the planner
+    /// Takes a step, in which a march accepts a limited number of nodes. Returns the path at the end, which
+    /// is that of [`Planner::solve`]. Planner and cost are always the same, and nobody else uses the planner
     /// meanwhile.
     ///
     /// # Errors
@@ -55,14 +55,14 @@ impl PathSearch {
             return Ok(Some(Solution::joined(legs)));
         }
         match &mut self.step {
-            Step::March(number) => {
+            SearchStep::March(number) => {
                 match planner.march_one(&self.places, self.request.has_bounds, *number, nodes) {
                     Some(Progress::More) => {}
                     Some(Progress::Done) => *number += 1,
                     None => self.step = self.next_leg(),
                 }
             }
-            Step::Leg(search) => {
+            SearchStep::Leg(search) => {
                 if let Some(found) = search.advance(planner, density, self.places.len(), nodes)? {
                     self.found.push(found);
                     if self.found.len() == self.places.len() - 1 {
@@ -75,8 +75,8 @@ impl PathSearch {
         Ok(None)
     }
 
-    fn next_leg(&self) -> Step {
+    fn next_leg(&self) -> SearchStep {
         let leg = self.found.len();
-        Step::Leg(Box::new(LegSearch::new(leg, [self.places[leg], self.places[leg + 1]], self.request)))
+        SearchStep::Leg(Box::new(LegSearch::new(leg, [self.places[leg], self.places[leg + 1]], self.request)))
     }
 }

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::path_mesh::{NONE, PathMesh, PathTriangle, order_on_curve};
 
-/// A thread looks at so many triangles at a time.
+/// Number of triangles that a thread looks at at a time.
 const TOGETHER: usize = 4096;
 
-/// The nodes and triangles of a new mesh that an old one has, too: those whose coordinates are the same.
+/// The nodes and triangles that a new mesh shares with an old one: those with the same coordinates.
 ///
 /// Shared nodes are in the same order in both.
-pub(super) struct Shared {
+pub(super) struct SharedParts {
     /// For each node of the new mesh, the number of the same one in the old mesh; [`NONE`] without one.
     pub nodes: Vec<u32>,
     /// For each triangle of the new mesh, the number of that with the same corners, in the same order, in the
@@ -21,9 +21,9 @@ pub(super) struct Shared {
     pub new_triangles: Vec<u32>,
 }
 
-impl Shared {
+impl SharedParts {
     /// Compares two meshes. Those around whose nodes another rectangle lies share nothing.
-    pub fn of(old: &PathMesh, new: &PathMesh) -> Self {
+    pub fn between(old: &PathMesh, new: &PathMesh) -> Self {
         let nodes = shared_nodes(old, new);
         let parts = new.triangles.par_chunks(TOGETHER);
         let triangles: Vec<u32> = parts.flat_map_iter(|part| shared_triangles(old, part, &nodes)).collect();

@@ -60,7 +60,7 @@ impl Shortcuts<'_> {
 
     /// Returns the cost of a segment, and its upper bound.
     fn costs(&self, a: DVec2, b: DVec2) -> [f64; 2] {
-        let PathFigures { cost, upper, .. } = PathFigures::of(&[a, b], self.density, SHORTCUT_TOLERANCE);
+        let PathFigures { cost, upper, .. } = PathFigures::new(&[a, b], self.density, SHORTCUT_TOLERANCE);
         [cost, upper]
     }
 }

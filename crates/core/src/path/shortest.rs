@@ -20,7 +20,7 @@ use glam::DVec2;
 
 use super::Passage;
 use super::path_mesh::{NONE, PathMesh};
-use super::place::Place;
+use super::place::MeshPlace;
 use super::walls::Walls;
 use crate::geometry::{BestFirst, Side, side_of_points};
 use crate::mesh::Progress;
@@ -65,7 +65,7 @@ impl Shortest<'_> {
 
 /// The state of a corner of the walls during a search.
 #[derive(Clone, Copy, Debug)]
-struct Corner {
+struct WallCorner {
     /// Whether a shortest way can bend there.
     bends: bool,
     /// The length of the shortest known way to it.
@@ -82,7 +82,7 @@ pub(super) struct CornerSearch {
     /// The triangles that hold the goal.
     at_goal: Vec<u32>,
     /// By node.
-    corners: Vec<Corner>,
+    corners: Vec<WallCorner>,
     /// Roots with the interval through which each looks, `None` for all around. The bound is the least length
     /// of a way to the goal by them.
     waiting: BestFirst<(Root, Option<Interval>)>,
@@ -96,8 +96,8 @@ pub(super) struct CornerSearch {
 
 impl CornerSearch {
     /// Begins to look for a way that is shorter than `known`.
-    pub fn new(mesh: &PathMesh, walls: &Walls, [start, goal]: [Place; 2], known: f64) -> Self {
-        let blank = Corner { bends: false, length: f64::INFINITY, before: NONE };
+    pub fn new(mesh: &PathMesh, walls: &Walls, [start, goal]: [MeshPlace; 2], known: f64) -> Self {
+        let blank = WallCorner { bends: false, length: f64::INFINITY, before: NONE };
         let mut corners = vec![blank; mesh.node_count()];
         walls.bends().into_iter().for_each(|node| corners[node as usize].bends = true);
         let [start, goal] = [start.point, goal.point];
@@ -107,7 +107,7 @@ impl CornerSearch {
         Self { start, goal, at_goal, corners, waiting, shortest, last, looked_at }
     }
 
-    /// Looks at the next intervals, at most so many. Returns whether there is more to do.
+    /// Looks at the next intervals, at most `most` of them. Returns whether there is more to do.
     pub fn advance(&mut self, over: &Shortest, most: usize) -> Progress {
         if self.looked_at.is_none() {
             self.see_around(over, Root { at: self.start, node: NONE, length: 0.0 });

@@ -70,11 +70,11 @@ impl Solution {
         self.lower = self.lower.max(lower).min(self.upper);
     }
 
-    /// Takes what a certificate found out: a cheaper path between the same stops, a lesser upper or a greater
-    /// lower bound. Returns whether the path is another one.
+    /// Takes over the result of a certificate: a cheaper path between the same stops, a smaller upper or a
+    /// larger lower bound. Returns whether the path changed.
     ///
-    /// Along jumps of the cost, bounds are far apart, and the path with the least upper bound can be dearer
-    /// than this one: then its bound counts, since this path costs less, and this path stays.
+    /// Along jumps of the cost, bounds are far apart, and the path with the least upper bound can be more
+    /// expensive than this one: then its bound counts, since this path costs less, and this path stays.
     pub fn take(&mut self, proved: Self) -> bool {
         let [lower, upper] = [self.lower.max(proved.lower), self.upper.min(proved.upper)];
         let is_cheaper = proved.upper < self.upper && proved.cost < self.cost;
@@ -89,12 +89,12 @@ impl Solution {
         is_other
     }
 
-    /// Returns the solution of a polyline. `tolerance` is that of [`PathFigures::of`].
-    pub(super) fn of(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
+    /// Returns the solution of a polyline. `tolerance` is that of [`PathFigures::new`].
+    pub(super) fn new(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
         let PathFigures { cost, upper, length, length_on_ground } =
-            PathFigures::of(&points, density, tolerance);
+            PathFigures::new(&points, density, tolerance);
         let RiskAlong { integral: risk, highest: highest_risk, highest_at: highest_risk_at } =
-            RiskAlong::of(&points, density);
+            RiskAlong::new(&points, density);
         let stops = vec![0, points.len() - 1];
         Self {
             cost,
@@ -232,7 +232,7 @@ impl Solution {
             let walls = self.walls.get(number);
             let shortcuts = Shortcuts { tolerance, walls: walls.map(|walls| &**walls), density };
             let points = shortcuts.taken(&self.points[ends[0]..=ends[1]]);
-            let figures = Self::of(points, density, SHORTCUT_TOLERANCE);
+            let figures = Self::new(points, density, SHORTCUT_TOLERANCE);
             Self { walls: walls.into_iter().cloned().collect(), ..figures }
         };
         let mut solution = Self::joined(self.stops.windows(2).enumerate().map(leg));
@@ -290,7 +290,7 @@ mod tests {
         for points in
             [vec![a, b, c], vec![a, a, b, c], vec![a, b, b, c], vec![a, b, c, c], vec![a, a], vec![a]]
         {
-            let solution = Solution::of(points.clone(), &cost, 1e-3);
+            let solution = Solution::new(points.clone(), &cost, 1e-3);
             let profile = solution.profile(&cost, 9);
             assert!(profile.iter().all(|sample| sample.point.is_finite()), "{points:?}");
             let [first, last] = [0, points.len() - 1].map(|n| points[n]);

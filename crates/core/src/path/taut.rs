@@ -54,8 +54,8 @@ pub(super) fn taut(points: &[DVec2], density: &dyn CostDensity, walls: &Walls) -
     pulled
 }
 
-/// Whether costs are constant around all points of a path and their neighbours: a taut path is as short there
-/// as any near it. `range` returns those over a rectangle.
+/// Whether costs are constant around all points of a path and their neighbours, so that a taut path is the
+/// shortest one nearby. `range` returns those over a rectangle.
 pub(super) fn is_constant_along(points: &[DVec2], range: impl Fn(&Rect) -> CostRange) -> bool {
     let is_constant = |three: [DVec2; 3]| range(&around(three)).is_constant();
     match *points {

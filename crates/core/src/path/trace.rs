@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::Passage;
 use super::march::March;
 use super::path_mesh::{NONE, PathMesh};
-use super::place::Place;
+use super::place::MeshPlace;
 
 /// The current position of the descent.
 #[derive(Clone, Copy)]
@@ -42,18 +42,19 @@ const NEAR_END: f64 = 1e-9;
 ///
 /// It goes down from the goal: from a point of a triangle to the point x of the other edges with the least
 /// u(x) + F |x − p|, where u is linear on the edges. Where that does not lead down, it goes to a node that
-/// does ([`Descent::down_to_node`]).
+/// does ([`PathDescent::down_to_node`]).
 pub(super) fn trace(
     mesh: &PathMesh,
     costs: &[f64],
     march: &March,
-    [start, goal]: [Place; 2],
+    [start, goal]: [MeshPlace; 2],
 ) -> Option<Vec<DVec2>> {
-    let descent = Descent::new(mesh, costs, march, [start, goal])?;
+    let descent = PathDescent::new(mesh, costs, march, [start, goal])?;
     let (mut stand, mut at, mut height) = (descent.stand_at(goal), goal.point, (f64::INFINITY, NONE));
     let mut points = vec![goal.point];
-    // Each step leads to a lower value, or to a node of equal value and lower number. The steps are
-    // limited all the same: values on edges can be arbitrarily close. Beyond it, nodes alone lead down.
+    // Each step leads to a lower value, or to a node of equal value and lower number. Their number is limited
+    // nevertheless, since values on edges can be arbitrarily close: beyond the limit, the path descends along
+    // nodes alone.
     for _ in 0..8 * mesh.triangles.len() + 8 {
         let step = descent.best(stand, at).filter(|step| step.stand.is_none() || step.height() < height);
         let step = step.or_else(|| descent.down_to_node(stand, at))?;
@@ -72,9 +73,9 @@ pub(super) fn trace_by_nodes(
     mesh: &PathMesh,
     costs: &[f64],
     march: &March,
-    [start, goal]: [Place; 2],
+    [start, goal]: [MeshPlace; 2],
 ) -> Option<Vec<DVec2>> {
-    let descent = Descent::new(mesh, costs, march, [start, goal])?;
+    let descent = PathDescent::new(mesh, costs, march, [start, goal])?;
     let (mut stand, mut at) = (Stand::Within(goal.triangle), goal.point);
     let mut points = vec![goal.point];
     // Ends: the nodes have lower and lower values, or equal ones and lower numbers.
@@ -100,22 +101,22 @@ fn take(step: DescentStep, points: &mut Vec<DVec2>) -> Option<(Stand, DVec2)> {
     next
 }
 
-struct Descent<'a> {
+struct PathDescent<'a> {
     mesh: &'a PathMesh,
     costs: &'a [f64],
     march: &'a March,
-    start: Place,
+    start: MeshPlace,
     /// Values above this one count as infinite.
     farthest: f64,
 }
 
-impl<'a> Descent<'a> {
+impl<'a> PathDescent<'a> {
     /// `None` where the march did not reach the goal.
     fn new(
         mesh: &'a PathMesh,
         costs: &'a [f64],
         march: &'a March,
-        [start, goal]: [Place; 2],
+        [start, goal]: [MeshPlace; 2],
     ) -> Option<Self> {
         // A march may have paused at the goal: what lies beyond does not count.
         let values = goal.corner_nodes(mesh).map(|node| march.value(node));
@@ -128,8 +129,8 @@ impl<'a> Descent<'a> {
         if value <= self.farthest { value } else { f64::INFINITY }
     }
 
-    /// Returns where a place stands: on a node or an edge of its triangle, or within.
-    fn stand_at(&self, place: Place) -> Stand {
+    /// Returns where a place is: at a node, on an edge of its triangle, or inside.
+    fn stand_at(&self, place: MeshPlace) -> Stand {
         let corners = self.mesh.triangles[place.triangle as usize].corners;
         let shares = place.shares(self.mesh);
         let is_off = shares.map(|share| share.abs() < NEAR_END);

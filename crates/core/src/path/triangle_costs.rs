@@ -33,10 +33,10 @@ const GAUSS: [[f64; 3]; 3] = {
     [[near, far, far], [far, near, far], [far, far, near]]
 };
 
-/// A triangle is bisected whose diameter, times how much its cost varies as a share of the least cost, 1 at
-/// most, is above this part of the longer side of all triangles.
+/// A triangle is bisected if its diameter times the variation of its cost (as a share of its least cost, at
+/// most 1) exceeds this share of the longer side of all triangles.
 const COARSEST: f64 = 1.0 / 250.0;
-/// A thread computes the costs of so many triangles at a time.
+/// Number of triangles whose costs a thread computes at a time.
 const TOGETHER: usize = 1024;
 
 impl TriangleCosts {
@@ -50,8 +50,8 @@ impl TriangleCosts {
         (0..before.least.len() as u32).filter(differs).collect()
     }
 
-    /// Takes the costs of all triangles, with room for so many more.
-    pub(super) fn of_all(costs: &[TriangleCost], more: usize) -> Self {
+    /// Takes the costs of all triangles, with room for `more` further ones.
+    pub(super) fn from_slice(costs: &[TriangleCost], more: usize) -> Self {
         let [mut least, mut mean] = [(); 2].map(|()| Vec::with_capacity(costs.len() + more));
         least.extend(costs.iter().map(|cost| cost.least));
         mean.extend(costs.iter().map(|cost| cost.mean));
@@ -72,8 +72,8 @@ impl TriangleCosts {
         Self { least: sorted(&self.least), mean: sorted(&self.mean) }
     }
 
-    /// Computes the costs again of the triangles that meet one of the rectangles, and returns those that
-    /// changed, in order.
+    /// Recomputes the costs of the triangles that meet one of the rectangles, and returns those that changed,
+    /// in order.
     ///
     /// # Errors
     /// Fails as [`PathMesh::costs`] does; then the costs are as before.
@@ -121,8 +121,9 @@ impl TriangleCost {
 }
 
 impl PathMesh {
-    /// Returns how much a triangle should be bisected: by how much its diameter is too large for its cost; 0
-    /// where it is not. One through which the rim of the area of paths passes has a jump of the cost.
+    /// Returns how urgently a triangle should be bisected: the factor by which its diameter is too large for
+    /// its cost; 0 where it is not. The cost jumps in triangles through which the rim of the area of paths
+    /// passes.
     pub(super) fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
         let variation = match self.passage(triangle) {
             Passage::Closed => 0.0,
@@ -138,7 +139,7 @@ impl PathMesh {
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn costs(&self, density: &dyn CostDensity) -> Result<TriangleCosts, PathError> {
-        self.all_costs(density).map(|costs| TriangleCosts::of_all(&costs, 0))
+        self.all_costs(density).map(|costs| TriangleCosts::from_slice(&costs, 0))
     }
 
     pub(super) fn all_costs(&self, density: &dyn CostDensity) -> Result<Vec<TriangleCost>, PathError> {

@@ -66,7 +66,7 @@ impl Walls {
     /// them.
     ///
     /// A segment can leave them only where it crosses a wall, at an end on a wall, or at a corner of the
-    /// walls. At each of these it is known on which side it goes on.
+    /// walls. At each of these it is known on which side it continues.
     pub fn admit(&self, p: DVec2, q: DVec2) -> bool {
         if p == q {
             return true;

@@ -1,8 +1,8 @@
 //! Other ways between two places than those that marches lead to first.
 //!
-//! A march is exact to first order. Of two ways that cost nearly the same it can prefer the dearer one. But
-//! the marches from both ends together know the other one: across a line on which all points are as far on
-//! the way, each way between hills or walls is a valley of the sum of both distances.
+//! A march is exact to first order. Of two ways that cost nearly the same it can prefer the more expensive
+//! one. But the marches from both ends together know the other one: along a line of points that are equally
+//! far along the way, each way between hills or walls is a valley of the sum of both distances.
 //!
 //! ```text
 //!            ·  ╭── b ──╮           us + ug along the line:  ╲    ╱╲    ╱
@@ -16,19 +16,19 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::Passage;
+use super::disjoint_sets::DisjointSets;
 use super::march::March;
-use super::parts::Parts;
 use super::path_mesh::PathMesh;
-use super::place::Place;
+use super::place::MeshPlace;
 use super::trace::trace;
 use super::walls::Walls;
 use crate::geometry::nearest_on_segment;
 
-/// Valleys are sought on lines at so many equal parts of the way, but for its ends.
+/// Number of equal parts into which lines divide the way; valleys are sought on these lines.
 const PARTS: u32 = 32;
 /// A way counts if marches promise that it costs at most this share more than the best.
 const MOST_EXCESS: f64 = 0.05;
-/// A valley is as deep as this at least, as a share of the cost: less is noise of the marches.
+/// A valley is at least this deep, as a share of the cost: anything less is noise of the marches.
 const LEAST_DEPTH: f64 = 2e-4;
 /// The most ways that are tried.
 const MOST_WAYS: usize = 12;
@@ -40,7 +40,7 @@ pub(super) struct Ways<'a> {
     pub mesh: &'a PathMesh,
     pub costs: &'a [f64],
     pub walls: &'a Walls,
-    pub ends: [Place; 2],
+    pub ends: [MeshPlace; 2],
     pub marches: [&'a March; 2],
 }
 
@@ -88,7 +88,7 @@ impl Line {
         }
         // The level rises from crossing to crossing. A valley ends where it meets a deeper one, and the root
         // of each part is its lowest crossing.
-        let mut parts = Parts::new(order.len());
+        let mut parts = DisjointSets::new(order.len());
         let mut is_shallow = vec![false; order.len()];
         for (rank, lower) in lower_beside.iter().enumerate() {
             for &other in lower {
@@ -120,7 +120,7 @@ impl Ways<'_> {
         found
     }
 
-    /// The distances up to which each march went at least: to the corners around the other place.
+    /// The distances that each march reached at least: those of the corners around the other place.
     fn farthest(&self) -> Distances {
         let [start, goal] = self.ends;
         [(self.marches[0], goal), (self.marches[1], start)].map(|(march, to)| {
@@ -134,8 +134,8 @@ impl Ways<'_> {
         (us < farthest[0] && ug < farthest[1]).then_some([us, ug])
     }
 
-    /// The triangles around the nodes that ways go by which cost little more than the best, in their order,
-    /// with the distances of their corners.
+    /// The triangles around the nodes on ways that cost little more than the best one, in their order, with
+    /// the distances of their corners.
     fn triangles_near_the_best(&self) -> Vec<(u32, [Distances; 3])> {
         let farthest = self.farthest();
         let sum = |node: u32| self.distances(node, farthest).map_or(f64::INFINITY, |[us, ug]| us + ug);
@@ -199,7 +199,7 @@ impl Ways<'_> {
     /// The way that both marches lead by a crossing.
     fn way_by(&self, crossing: Crossing) -> Option<Vec<DVec2>> {
         let point = self.mesh.moved_into(crossing.triangle, crossing.at);
-        let via = Place { point, triangle: crossing.triangle };
+        let via = MeshPlace { point, triangle: crossing.triangle };
         let [start, goal] = self.ends;
         let mut way = trace(self.mesh, self.costs, self.marches[0], [start, via])?;
         let mut rest = trace(self.mesh, self.costs, self.marches[1], [goal, via])?;

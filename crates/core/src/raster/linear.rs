@@ -44,8 +44,8 @@ impl Raster {
         is_within.then(|| self.linear_in(at.min(last.map(f64::next_down)))).flatten()
     }
 
-    /// Returns what [`Self::linear_at`] does, but beyond the outermost centres, where there is half a pixel
-    /// left, the value goes on as it does before them: flat, a surface would have a kink there.
+    /// Returns what [`Self::linear_at`] does, but extrapolates linearly in the half pixel beyond the
+    /// outermost centres: with a constant, a surface would have a kink there.
     pub(crate) fn continued_at(&self, point: DVec2) -> Option<f64> {
         let at = self.pixel_from_world(point);
         let last = DVec2::from(self.size().map(f64::from));

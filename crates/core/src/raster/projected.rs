@@ -42,10 +42,10 @@ const SAMPLES: u32 = 33;
 /// Least width of a pixel that counts, as a share of its height: pixels at a pole have no width.
 const NARROWEST: f64 = 0.25;
 
-/// Returns a raster in the plane of a projection, where it covers a part of `area`. Its pixels are squares
-/// as small as the smallest of the source there, on the Earth; each has the value at its centre, linear
-/// between the centres of the source's pixels. It has no value where the pixel of the source around its
-/// centre has none; beyond the sides of the source, those of its last pixels go on for one pixel.
+/// Returns a raster in the plane of a projection, where it covers a part of `area`. Its pixels are squares as
+/// small as the smallest of the source there, on the Earth; each has the value at its centre, linear between
+/// the centres of the source's pixels. It has no value where the pixel of the source around its centre has
+/// none; beyond the sides of the source, the values of the last pixels continue for one pixel.
 ///
 /// # Errors
 /// Fails when the raster covers nothing of the area, and when the pixels are too many.
@@ -204,7 +204,7 @@ impl Source<'_> {
         let geographic =
             (min + at * pixel).clamp(min + 0.5 * pixel, (max - 0.5 * pixel).max(min + 0.5 * pixel));
         let plane = |at: DVec2| self.reprojection.in_plane(at);
-        // Half pixels away from the poles, where the projection has no other side.
+        // Half a pixel away from the poles, beyond which the projection does not go.
         let [along_x, along_y] = [DVec2::X, DVec2::Y].map(|axis| {
             let half = 0.5 * pixel * axis;
             plane(geographic + half).distance(plane(geographic - half))

@@ -15,7 +15,7 @@ pub struct RasterPyramid {
     raster: Raster,
     grid: PixelGrid,
     /// The squares of scale 2, 3 …, up to a single one.
-    scales: Vec<Squares>,
+    scales: Vec<PyramidLevel>,
 }
 
 /// The values in a part of a raster.
@@ -29,7 +29,7 @@ pub struct SquareValues {
 
 /// The squares of one scale, row by row from the lowest.
 #[derive(Clone, Debug, PartialEq)]
-struct Squares {
+struct PyramidLevel {
     /// [columns, rows].
     size: [u32; 2],
     /// Columns and rows of squares that do not reach beyond the raster.
@@ -48,9 +48,9 @@ const FINEST: i32 = 2;
 impl RasterPyramid {
     /// Computes the ranges of all squares.
     pub fn new(raster: Raster) -> Self {
-        let mut scales = vec![Squares::of_pixels(&raster)];
+        let mut scales = vec![PyramidLevel::of_pixels(&raster)];
         while let Some(finer) = scales.last().filter(|squares| squares.size != [1, 1]) {
-            scales.push(Squares::of_squares(finer));
+            scales.push(PyramidLevel::of_squares(finer));
         }
         let grid = PixelGrid::filling(&raster.bounds(), raster.size());
         Self { raster, grid, scales }
@@ -63,7 +63,7 @@ impl RasterPyramid {
 
     /// Returns memory of pixels and ranges, in bytes.
     pub fn bytes(&self) -> usize {
-        let of_scale = |squares: &Squares| size_of_val(&*squares.ranges) + size_of_val(&*squares.gaps);
+        let of_scale = |squares: &PyramidLevel| size_of_val(&*squares.ranges) + size_of_val(&*squares.gaps);
         self.raster.bytes() + self.scales.iter().map(of_scale).sum::<usize>()
     }
 
@@ -261,7 +261,7 @@ impl SquareValues {
     }
 }
 
-impl Squares {
+impl PyramidLevel {
     /// Returns the squares of 4 × 4 pixels.
     fn of_pixels(raster: &Raster) -> Self {
         let side = 1 << FINEST;

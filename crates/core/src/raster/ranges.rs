@@ -56,7 +56,7 @@ pub fn exponent(x: f64) -> i32 {
     (x.to_bits() >> 52) as i32 - 1023
 }
 
-/// The least and the greatest of some values. If they are equal, there is one value.
+/// The minimum and the maximum of some values. If they are equal, there is one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
     /// The least value.

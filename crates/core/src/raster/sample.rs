@@ -2,11 +2,11 @@
 
 use super::{RasterPyramid, ValueRange};
 
-/// Most pixels whose values [`RasterPyramid::sorted_sample`] returns, besides the least and the greatest.
+/// Most pixels whose values [`RasterPyramid::sorted_sample`] returns, besides the minimum and the maximum.
 const SAMPLE: usize = 1 << 16;
 
 impl RasterPyramid {
-    /// Returns finite values in ascending order: the least, the greatest, and those of every pixel, or of
+    /// Returns finite values in ascending order: the minimum, the maximum, and those of every pixel, or of
     /// every second, third … pixel where there are more than 65,536.
     pub fn sorted_sample(&self) -> Vec<f32> {
         let Some(ValueRange { least, greatest }) = self.finite_range() else { return Vec::new() };

@@ -45,7 +45,7 @@ pub fn domain_on_samples(raster: &Raster, spacing: Option<f64>) -> Option<(Rect,
     Some((domain, on_samples.unwrap_or(f64::from(cell) * side)))
 }
 
-/// Returns the spacing for so many cells: its last bit decides whether the domain has one more.
+/// Returns the spacing for this number of cells: its last bit decides whether the domain has one more.
 fn spacing_of(domain: &Rect, cells: [u32; 2]) -> Option<f64> {
     let cells = DVec2::from(cells.map(f64::from));
     let widest = (domain.size() / cells).max_element();

@@ -34,7 +34,7 @@ const SUMMED: [SurfaceNorm; 2] = [SurfaceNorm::RootMeanSquare, SurfaceNorm::Grad
 
 /// Sums over samples.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct FitSums {
     samples: usize,
     /// Integrals of the squares of differences, and of those of gradients.
     squares: [f64; 2],
@@ -42,7 +42,7 @@ struct Sums {
     at: DVec2,
 }
 
-impl Sums {
+impl FitSums {
     fn add(&mut self, at: DVec2, difference: f64) {
         self.samples += 1;
         if difference.abs() > self.largest {
@@ -129,7 +129,7 @@ impl SurfaceSamples {
         let places = places(mesh);
         let heights = self.heights(&places);
         let sums = mesh.triangles().par_iter().with_min_len(GRAIN).map(|triangle| {
-            let mut sums = Sums::default();
+            let mut sums = FitSums::default();
             let corners = triangle.vertices.map(|node| places[node.index()]);
             if let ([Some(a), Some(b), Some(c)], false) =
                 (triangle.vertices.map(|node| heights[node.index()]), triangle.is_outside())
@@ -144,8 +144,8 @@ impl SurfaceSamples {
             sums
         });
         // In the order of the triangles, so that the sum is the same for any number of threads.
-        let sums: Vec<Sums> = sums.collect();
-        let Sums { samples, squares, largest, at } = sums.iter().fold(Sums::default(), Sums::joined);
+        let sums: Vec<FitSums> = sums.collect();
+        let FitSums { samples, squares, largest, at } = sums.iter().fold(FitSums::default(), FitSums::joined);
         let [rms, gradient] = [0, 1].map(|n| self.root_of_mean(squares[n], SUMMED[n]));
         SurfaceFit { heights, largest, at, rms, gradient, samples }
     }

@@ -24,7 +24,7 @@ pub enum HeightSource {
 impl HeightSource {
     /// Returns the surface that a mesh was made for, or else the depths of a stack of layers; `None` where
     /// there is neither.
-    pub fn of(rule: Option<&SurfaceRule>, layers: &[Layer]) -> Option<Self> {
+    pub fn new(rule: Option<&SurfaceRule>, layers: &[Layer]) -> Option<Self> {
         let depths = || DepthSurface::of(layers).map(|_| Self::Depths(layers.to_vec()));
         rule.map(|rule| Self::Surface(rule.samples().clone())).or_else(depths)
     }

@@ -9,11 +9,11 @@ use crate::mesh::Element;
 /// The heights of the surface at the nodes of a mesh that is being refined, by the numbers of the nodes.
 #[derive(Clone, Debug, Default)]
 pub struct SurfaceNodes {
-    known: Vec<Known>,
+    known: Vec<KnownHeight>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Known {
+enum KnownHeight {
     NotYet,
     /// The height, if the surface has one there.
     Height(Option<f64>),
@@ -34,13 +34,13 @@ impl SurfaceNodes {
         let found = [0, 1, 2].map(|n| {
             let node = element.triangle.vertices[n].index();
             if node >= self.known.len() {
-                self.known.resize(node + 1, Known::NotYet);
+                self.known.resize(node + 1, KnownHeight::NotYet);
             }
             match self.known[node] {
-                Known::Height(height) => height,
-                Known::NotYet => {
+                KnownHeight::Height(height) => height,
+                KnownHeight::NotYet => {
                     let height = samples.height_at(corners[n]);
-                    self.known[node] = Known::Height(height);
+                    self.known[node] = KnownHeight::Height(height);
                     height
                 }
             }
@@ -59,7 +59,11 @@ impl SurfaceTriangle {
     }
 
     /// Returns a triangle given by its corners on a lattice.
-    pub(super) fn of(corners: [LatticePoint; 3], lattice: &Lattice, samples: &SurfaceSamples) -> Self {
+    pub(super) fn from_samples(
+        corners: [LatticePoint; 3],
+        lattice: &Lattice,
+        samples: &SurfaceSamples,
+    ) -> Self {
         let corners = corners.map(|corner| lattice.world_from_lattice(corner));
         Self::new(corners, corners.map(|corner| samples.height_at(corner)))
     }

@@ -34,9 +34,9 @@ struct Shares {
     /// Triangles at this level are not bisected.
     deepest_level: u32,
     nodes: SurfaceNodes,
-    queue: BinaryHeap<Entry>,
+    queue: BinaryHeap<OrderEntry>,
     /// By triangle; those of the first mesh after these are not known yet.
-    shares: Vec<Share>,
+    shares: Vec<TriangleShare>,
     /// Triangles of the domain.
     counted: usize,
     /// The sum of the squares of all triangles.
@@ -45,7 +45,7 @@ struct Shares {
 
 /// What a rule says about a triangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Measured {
+pub(super) struct MeasuredTriangle {
     /// Whether it must be bisected in any case.
     pub(super) is_bound: bool,
     /// Its largest difference, or its part of a sum of squares.
@@ -58,7 +58,7 @@ pub(super) struct Measured {
 
 /// What is known of a triangle.
 #[derive(Clone, Copy, Debug, Default)]
-struct Share {
+struct TriangleShare {
     /// Its part of the sum of squares.
     squares: f64,
     /// What it counts with: the least part of it and of those above it in the tree.
@@ -68,27 +68,27 @@ struct Share {
 
 /// A triangle in the queue. It counts as long as the triangle has this level: bisected, it has the next.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct OrderEntry {
     key: f64,
     id: TriangleId,
     level: u32,
 }
 
-impl PartialEq for Entry {
+impl PartialEq for OrderEntry {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Entry {}
+impl Eq for OrderEntry {}
 
-impl PartialOrd for Entry {
+impl PartialOrd for OrderEntry {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Entry {
+impl Ord for OrderEntry {
     fn cmp(&self, other: &Self) -> Ordering {
         self.key.total_cmp(&other.key).then(other.id.cmp(&self.id))
     }
@@ -137,14 +137,14 @@ impl BisectionOrder {
     /// Measures the next triangle of the first mesh. Returns `false` when all are known.
     pub(super) fn measure_next<E>(
         &mut self,
-        measure: impl FnOnce(&Element, &mut SurfaceNodes) -> Result<Measured, E>,
+        measure: impl FnOnce(&Element, &mut SurfaceNodes) -> Result<MeasuredTriangle, E>,
     ) -> Result<bool, E> {
         let Self { mesh, shares, .. } = self;
         if shares.shares.len() == mesh.raw_triangle_count() {
             return Ok(false);
         }
         let id = TriangleId::from_index(shares.shares.len());
-        shares.shares.push(Share::default());
+        shares.shares.push(TriangleShare::default());
         shares.put(mesh, id, f64::INFINITY, measure)?;
         Ok(true)
     }
@@ -163,10 +163,10 @@ impl BisectionOrder {
     /// Bisects the next triangle, and those that must be bisected with it.
     pub(super) fn bisect_next<E>(
         &mut self,
-        mut measure: impl FnMut(&Element, &mut SurfaceNodes) -> Result<Measured, E>,
+        mut measure: impl FnMut(&Element, &mut SurfaceNodes) -> Result<MeasuredTriangle, E>,
     ) -> Result<(), E> {
         let Self { mesh, shares, least, bisected, chain } = self;
-        let Some(Entry { key, id, .. }) = shares.queue.pop() else { return Ok(()) };
+        let Some(OrderEntry { key, id, .. }) = shares.queue.pop() else { return Ok(()) };
         *least = least.min(key);
         bisected.push(triangle_key(mesh.corners(id)));
         let mut result = Ok(());
@@ -174,7 +174,7 @@ impl BisectionOrder {
         mesh.refine_triangle_with(id, chain, |mesh, parent| {
             let above = shares.take(parent);
             let child = TriangleId::from_index(shares.shares.len());
-            shares.shares.push(Share::default());
+            shares.shares.push(TriangleShare::default());
             for id in [parent, child] {
                 if result.is_ok() {
                     result = shares.put(mesh, id, above, &mut measure);
@@ -188,7 +188,7 @@ impl BisectionOrder {
 impl Shares {
     /// Takes the part of a triangle away, which was bisected, and returns what it counted with.
     fn take(&mut self, id: TriangleId) -> f64 {
-        let Share { squares, order, is_inside } = std::mem::take(&mut self.shares[id.index()]);
+        let TriangleShare { squares, order, is_inside } = std::mem::take(&mut self.shares[id.index()]);
         self.counted -= usize::from(is_inside);
         self.squares.add(-squares);
         order
@@ -200,10 +200,11 @@ impl Shares {
         mesh: &Mesh,
         id: TriangleId,
         above: f64,
-        measure: impl FnOnce(&Element, &mut SurfaceNodes) -> Result<Measured, E>,
+        measure: impl FnOnce(&Element, &mut SurfaceNodes) -> Result<MeasuredTriangle, E>,
     ) -> Result<(), E> {
         let element = mesh.element(id);
-        let Measured { is_bound, error, may_be_bisected, is_inside } = measure(&element, &mut self.nodes)?;
+        let MeasuredTriangle { is_bound, error, may_be_bisected, is_inside } =
+            measure(&element, &mut self.nodes)?;
         let order = error.min(above);
         let (key, squares) = match self.norm {
             SurfaceNorm::Largest => (error, 0.0),
@@ -212,11 +213,11 @@ impl Shares {
         let key = if is_bound { f64::INFINITY } else { key };
         let level = element.triangle.level();
         if level < self.deepest_level && key > 0.0 && (is_bound || may_be_bisected) {
-            self.queue.push(Entry { key, id, level });
+            self.queue.push(OrderEntry { key, id, level });
         }
         self.counted += usize::from(is_inside);
         self.squares.add(squares);
-        self.shares[id.index()] = Share { squares, order, is_inside };
+        self.shares[id.index()] = TriangleShare { squares, order, is_inside };
         Ok(())
     }
 }

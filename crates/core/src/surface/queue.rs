@@ -1,7 +1,7 @@
 //! Where the bisections for a surface end.
 
 use super::SurfaceRule;
-use super::order::{BisectionOrder, Measured};
+use super::order::{BisectionOrder, MeasuredTriangle};
 use crate::domain::DomainOnLattice;
 use crate::layers::SurfaceNorm;
 use crate::mesh::{Element, Limits, Mesh, Progress};
@@ -36,8 +36,8 @@ pub struct ErrorQueue {
     goal: QueueGoal,
     /// No mesh has more triangles.
     limit: usize,
-    within: Option<Found>,
-    at_most: Option<Found>,
+    within: Option<GoalMesh>,
+    at_most: Option<GoalMesh>,
     curve: Vec<CurvePoint>,
     last: Option<CurvePoint>,
 }
@@ -53,7 +53,7 @@ pub struct CurvePoint {
 
 /// A mesh that meets a part of the goal.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct GoalMesh {
     error: f64,
     /// The number of bisections in order until then.
     bisections: usize,
@@ -104,7 +104,7 @@ impl ErrorQueue {
         let mut measure = |element: &Element, nodes: &mut _| {
             let measured = rule.measure(element, nodes, norm);
             let is_bound = measured.is_bound || is_bound(element)?;
-            Ok(Measured { is_bound, is_inside: !domain.excludes(element), ..measured })
+            Ok(MeasuredTriangle { is_bound, is_inside: !domain.excludes(element), ..measured })
         };
         for _ in 0..budget {
             if self.order.measure_next(&mut measure)? {
@@ -141,7 +141,7 @@ impl ErrorQueue {
     }
 
     /// Returns the later one of the meshes that were looked for.
-    fn found(&self) -> Option<Found> {
+    fn found(&self) -> Option<GoalMesh> {
         let found = [self.within, self.at_most].into_iter().flatten();
         found.max_by_key(|found| found.bisections)
     }
@@ -168,7 +168,7 @@ impl ErrorQueue {
     }
 
     fn note(&mut self, point: CurvePoint) {
-        let found = Found { error: point.error, bisections: self.order.bisected().len() };
+        let found = GoalMesh { error: point.error, bisections: self.order.bisected().len() };
         if self.within_is_missed() && self.goal.within.is_some_and(|within| point.error <= within) {
             self.within = Some(found);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::nodes::{SurfaceNodes, SurfaceTriangle};
-use super::order::{Measured, triangle_key};
+use super::order::{MeasuredTriangle, triangle_key};
 use super::queue::{ErrorQueue, QueueGoal};
 use super::samples::{LayerSamples, SurfaceSamples};
 use crate::geometry::{Lattice, LatticePoint, NumberSet};
@@ -21,7 +21,7 @@ const LEAST_SHARE: f64 = 1.0 / 32.0;
 pub struct SurfaceRule {
     samples: Arc<SurfaceSamples>,
     /// What each layer of the samples asks for.
-    asked: Vec<Asked>,
+    asked: Vec<LayerGoal>,
     /// The triangles that are bisected for sums of squares, as [`triangle_key`].
     bisected: Arc<NumberSet<u64>>,
     /// The errors by the norms of sums of squares that the mesh was made for.
@@ -32,7 +32,7 @@ pub struct SurfaceRule {
 
 /// What a layer asks for.
 #[derive(Clone, Copy, Debug)]
-struct Asked {
+struct LayerGoal {
     goal: SurfaceGoal,
     norm: SurfaceNorm,
     /// The largest difference that the layer allows; infinite where that is not known yet, and for other
@@ -57,11 +57,11 @@ pub struct SurfaceDemand {
     pub most: f64,
 }
 
-impl Asked {
+impl LayerGoal {
     const NOTHING: Self =
         Self { goal: SurfaceGoal::Within(f64::INFINITY), norm: SurfaceNorm::Largest, error: f64::INFINITY };
 
-    fn of(&Surface { goal, norm, source: _ }: &Surface) -> Self {
+    fn new(&Surface { goal, norm, source: _ }: &Surface) -> Self {
         let error = match (norm, goal) {
             (SurfaceNorm::Largest, SurfaceGoal::Within(error)) => error,
             _ => f64::INFINITY,
@@ -82,15 +82,15 @@ impl SurfaceRule {
     pub fn new(samples: Arc<SurfaceSamples>, stack: &[Layer]) -> Self {
         let surface = |id: LayerId| stack.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
         let asked = samples.layers.iter().map(|layer| match surface(layer.id) {
-            Some(LayerKind::Surface(surface)) => Asked::of(surface),
-            _ => Asked::NOTHING,
+            Some(LayerKind::Surface(surface)) => LayerGoal::new(surface),
+            _ => LayerGoal::NOTHING,
         });
         let (bisected, summed) = (Arc::default(), Vec::new());
         Self { asked: asked.collect(), samples, bisected, summed, exceeded_count: None }
     }
 
     /// Returns the layers of the samples, from the top to the bottom, with what they ask for.
-    fn layers(&self) -> impl Iterator<Item = (&LayerSamples, &Asked)> {
+    fn layers(&self) -> impl Iterator<Item = (&LayerSamples, &LayerGoal)> {
         self.samples.layers.iter().zip(&self.asked)
     }
 
@@ -191,7 +191,7 @@ impl SurfaceRule {
     /// Returns whether a triangle, given by its corners, is bisected for a surface.
     pub fn exceeds_at(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> bool {
         self.is_bisected(corners)
-            || self.layer_exceeded(&SurfaceTriangle::of(corners, lattice, &self.samples)).is_some()
+            || self.layer_exceeded(&SurfaceTriangle::from_samples(corners, lattice, &self.samples)).is_some()
     }
 
     fn is_bisected(&self, corners: [LatticePoint; 3]) -> bool {
@@ -201,7 +201,7 @@ impl SurfaceRule {
     /// Returns why a triangle, given by its corners, is bisected for a surface; `None` where it is not, and
     /// where the surface has no height at a corner.
     pub fn demand_in(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> Option<SurfaceDemand> {
-        let triangle = SurfaceTriangle::of(corners, lattice, &self.samples);
+        let triangle = SurfaceTriangle::from_samples(corners, lattice, &self.samples);
         let heights = triangle.heights?;
         if let Some(exceeded) = self.layer_exceeded(&triangle) {
             return Some(self.demand_of_difference(exceeded, &triangle, heights));
@@ -221,7 +221,7 @@ impl SurfaceRule {
     /// allowed or forbidden, by the largest difference.
     fn demand_of_difference(
         &self,
-        (layer, asked): (&LayerSamples, &Asked),
+        (layer, asked): (&LayerSamples, &LayerGoal),
         triangle: &SurfaceTriangle,
         heights: [f64; 3],
     ) -> SurfaceDemand {
@@ -239,8 +239,9 @@ impl SurfaceRule {
 
     /// Returns a layer whose largest difference a triangle exceeds, or that of a layer of errors over it,
     /// with the difference that the layer allows.
-    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, &Asked)> {
-        let can_ask = |layer: &LayerSamples, asked: &Asked| asked.error.is_finite() || layer.errors.is_some();
+    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, &LayerGoal)> {
+        let can_ask =
+            |layer: &LayerSamples, asked: &LayerGoal| asked.error.is_finite() || layer.errors.is_some();
         let mut asking =
             self.layers().filter(|(layer, asked)| can_ask(layer, asked) && layer.may_ask(triangle));
         asking.find(|(layer, asked)| match triangle.heights {
@@ -251,7 +252,12 @@ impl SurfaceRule {
     }
 
     /// Returns what a norm says about a triangle of the domain. `nodes` keeps the heights at nodes.
-    pub(super) fn measure(&self, element: &Element, nodes: &mut SurfaceNodes, norm: SurfaceNorm) -> Measured {
+    pub(super) fn measure(
+        &self,
+        element: &Element,
+        nodes: &mut SurfaceNodes,
+        norm: SurfaceNorm,
+    ) -> MeasuredTriangle {
         let triangle = nodes.triangle(element, &self.samples);
         let asking = || {
             let counted = self.layers().filter(|(_, asked)| asked.is_counted(norm));
@@ -261,13 +267,13 @@ impl SurfaceRule {
             || self.layer_exceeded(&triangle).is_some()
             || (triangle.heights.is_none() && asking().any(|layer| layer.has_sample(triangle.corners)));
         let error = self.error_of_triangle(&triangle, norm);
-        Measured { is_bound, error, may_be_bisected: asking().next().is_some(), is_inside: true }
+        MeasuredTriangle { is_bound, error, may_be_bisected: asking().next().is_some(), is_inside: true }
     }
 
     /// Returns the error of a triangle, given by its corners, by a norm: the largest difference from the
     /// layers with a number of triangles, or its part of the sum of the squares.
     pub(crate) fn error_at(&self, corners: [LatticePoint; 3], lattice: &Lattice, norm: SurfaceNorm) -> f64 {
-        self.error_of_triangle(&SurfaceTriangle::of(corners, lattice, &self.samples), norm)
+        self.error_of_triangle(&SurfaceTriangle::from_samples(corners, lattice, &self.samples), norm)
     }
 
     fn error_of_triangle(&self, triangle: &SurfaceTriangle, norm: SurfaceNorm) -> f64 {

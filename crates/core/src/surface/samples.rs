@@ -19,7 +19,7 @@ pub struct SurfaceSamples {
     /// From the top to the bottom.
     pub(super) layers: Vec<LayerSamples>,
     pub(super) count: SampleCount,
-    /// The least and the greatest value of a sample in the domain.
+    /// The minimum and the maximum value of a sample in the domain.
     pub(super) range: Option<[f64; 2]>,
     pub(super) errors: ErrorLayers,
 }
@@ -44,7 +44,7 @@ impl SampleCount {
     }
 }
 
-/// Figures of some samples: how many there are, and the least and the greatest value.
+/// Figures of some samples: how many there are, and their minimum and maximum.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SampleFigures {
     pub(super) count: SampleCount,
@@ -113,7 +113,7 @@ pub(super) enum SampleValues {
 
 /// The plane through the surface at the corners of a triangle, in the coordinates of a grid of samples:
 /// columns and rows.
-pub(super) struct Plane {
+pub(super) struct SamplePlane {
     pub(super) corners: [DVec2; 3],
     at_first: f64,
     pub(super) gradient: DVec2,
@@ -153,7 +153,7 @@ impl SurfaceSamples {
         heights(true).next().or_else(|| heights(false).next()).or_else(|| self.nearest(point))
     }
 
-    /// Returns the least and the greatest value of the samples in the domain; `None` without any.
+    /// Returns the minimum and the maximum of the samples in the domain; `None` without any.
     pub fn height_range(&self) -> Option<[f64; 2]> {
         self.range
     }
@@ -313,17 +313,17 @@ impl SampleGrid {
     }
 
     /// Returns the plane with these heights at corners in world units.
-    pub(super) fn plane(&self, corners: [DVec2; 3], heights: [f64; 3]) -> Plane {
+    pub(super) fn plane(&self, corners: [DVec2; 3], heights: [f64; 3]) -> SamplePlane {
         let corners = corners.map(|corner| (corner - self.first) / self.step);
         let [a, b, c] = corners;
         let (u, v) = (b - a, c - a);
         let [to_b, to_c] = [heights[1] - heights[0], heights[2] - heights[0]];
         let gradient = DVec2::new(to_b * v.y - to_c * u.y, to_c * u.x - to_b * v.x) / u.perp_dot(v);
-        Plane { corners, at_first: heights[0], gradient }
+        SamplePlane { corners, at_first: heights[0], gradient }
     }
 }
 
-impl Plane {
+impl SamplePlane {
     /// Returns the rows of a grid that meet the closed triangle.
     pub(super) fn rows(&self, grid: &SampleGrid) -> impl Iterator<Item = SampleRow> {
         let [columns, rows] = grid.size;
@@ -342,8 +342,8 @@ impl Plane {
         SampleRow { row, columns, first, rise: self.gradient.x }
     }
 
-    /// Returns the least and the greatest column of the triangle at a row, in any order and with repeats; NaN
-    /// where it has none.
+    /// Returns the minimum and the maximum column of the triangle at a row, in any order and with repeats;
+    /// NaN where it has none.
     pub(super) fn ends_in(&self, row: f64) -> [f64; 3] {
         let [a, b, c] = self.corners;
         [[a, b], [b, c], [c, a]].map(|[from, to]| {

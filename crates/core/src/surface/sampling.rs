@@ -37,7 +37,7 @@ impl SurfaceSampling {
         let of_errors = layers.iter().filter(|layer| layer.is_of_errors()).cloned().collect();
         let visible = layers.iter().rev().filter(|layer| layer.visible);
         let layers: Vec<LayerSamples> =
-            visible.filter_map(|layer| LayerSamples::of(layer, lattice)).collect();
+            visible.filter_map(|layer| LayerSamples::new(layer, lattice)).collect();
         let found = SurfaceSamples { layers, ..SurfaceSamples::default() };
         (!found.layers.is_empty()).then_some(Self { found, of_errors: Some(of_errors), layer: 0, row: 0 })
     }
@@ -164,7 +164,7 @@ impl SurfaceSampling {
 
 impl LayerSamples {
     /// Returns the samples of a layer, without values yet; `None` if it is not one of a surface.
-    fn of(layer: &Layer, lattice: &Lattice) -> Option<Self> {
+    fn new(layer: &Layer, lattice: &Lattice) -> Option<Self> {
         let LayerKind::Surface(surface) = &layer.kind else { return None };
         let (grid, values, is_finite) = match &surface.source {
             SurfaceSource::Raster(source) => {

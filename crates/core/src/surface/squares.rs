@@ -3,7 +3,9 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::samples::{CLOSED, LayerSamples, Plane, SampleGrid, SampleRow, SampleValues, SurfaceSamples};
+use super::samples::{
+    CLOSED, LayerSamples, SampleGrid, SamplePlane, SampleRow, SampleValues, SurfaceSamples,
+};
 use crate::layers::SurfaceNorm;
 
 impl SurfaceSamples {
@@ -23,7 +25,7 @@ impl SurfaceSamples {
 impl LayerSamples {
     /// Returns the integral over a closed triangle, given by its corners in world units, of the square of the
     /// difference from the plane with these heights at the corners. Each sample stands for the area of a cell
-    /// of the grid, which triangles that share it divide by their angles there ([`Plane::weights`]).
+    /// of the grid, which triangles that share it divide by their angles there ([`SamplePlane::weights`]).
     ///
     /// For the gradient, samples are at the middle between four values.
     pub(super) fn squares(&self, corners: [DVec2; 3], heights: [f64; 3], norm: SurfaceNorm) -> f64 {
@@ -111,14 +113,14 @@ impl SampleGrid {
 
 /// What the samples of a row count for.
 #[derive(Clone, Copy, Debug)]
-struct Weights {
+struct RowWeights {
     /// Of all but the first and the last.
     inner: f64,
     first: f64,
     last: f64,
 }
 
-impl Weights {
+impl RowWeights {
     #[inline]
     fn at(self, place: usize, count: usize) -> f64 {
         match place {
@@ -133,7 +135,7 @@ impl Weights {
 /// lattice whose cells are stretched to squares.
 const RIGHT_ANGLE: f64 = 0.25;
 
-impl Plane {
+impl SamplePlane {
     /// Returns what the samples of a row count for: the angle of the triangle at the sample, as a share of
     /// that of the rectangle around the domain there. So the triangles that share a sample count it once.
     ///
@@ -143,7 +145,7 @@ impl Plane {
     ///     --*--
     ///      /|\                    twice that on a side of the rectangle, and four times at its corner
     /// ```
-    fn weights(&self, row: &SampleRow, grid: &SampleGrid) -> Weights {
+    fn weights(&self, row: &SampleRow, grid: &SampleGrid) -> RowWeights {
         let height = f64::from(row.row);
         let is_near = |a: f64, b: f64| (a - b).abs() <= CLOSED;
         let on_side = |axis: usize, at: f64| match grid.sides().iter().any(|side| is_near(side[axis], at)) {
@@ -167,7 +169,7 @@ impl Plane {
         let columns = row.columns();
         let (first, last) = (of_end(columns.start), of_end(columns.end - 1));
         let [inner, first, last] = [inner, first, last].map(|weight| weight * on_side(1, height));
-        Weights { inner, first, last }
+        RowWeights { inner, first, last }
     }
 
     /// Returns the number of the corner with the right angle, on a lattice whose cells are stretched to
@@ -187,7 +189,7 @@ impl Plane {
 impl SampleRow {
     /// Returns the weighted sum of the squares of the differences. Samples that do not count are NaN.
     #[inline]
-    fn squares<V: Copy + Into<f64>>(&self, values: &[V], weights: Weights) -> f64 {
+    fn squares<V: Copy + Into<f64>>(&self, values: &[V], weights: RowWeights) -> f64 {
         let square = |n: usize| {
             let difference = self.height(n) - values[n].into();
             if difference.is_nan() { 0.0 } else { difference * difference }

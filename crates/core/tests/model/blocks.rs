@@ -167,7 +167,7 @@ fn levels_within_a_triangle_are_those_of_the_triangles_inside() {
         let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
         for _ in 0..400 {
             let id = TriangleId::from_index(random.usize(..mesh.raw_triangle_count()));
-            let mut triangle = TreeTriangle::of(&mesh, id);
+            let mut triangle = TreeTriangle::from_mesh(&mesh, id);
             for _ in 0..random.usize(..14) {
                 triangle = triangle.children()[random.usize(..2)];
             }

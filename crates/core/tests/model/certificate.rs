@@ -1,6 +1,6 @@
 //! Certificates of paths: the lower bound never exceeds the least cost, and reaches the requested width.
 //!
-//! MESHBRUSH_TABLE=1 prints nodes, programmes and seconds, and goes on to a width of 1e-4.
+//! MESHBRUSH_TABLE=1 prints nodes, programs and seconds, and goes on to a width of 1e-4.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,7 +14,7 @@ use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{Certificate, CertificateEnd, CertificateTask, FormulaCost, PathError};
 use meshbrush_mesh::geometry::Rect;
 
-/// Returns the certificate of a known path, with its end. The bound is checked after each programme.
+/// Returns the certificate of a known path, with its end. The bound is checked after each program.
 fn certified(case: &ExactPath, width: f64) -> Certificate {
     let upper = case.exact * (1.0 + 1e-9);
     let density = Arc::clone(&case.density);
@@ -44,10 +44,10 @@ fn the_bound_is_below_the_exact_cost_and_reaches_the_width() {
             let certificate = certified(&case, width);
             if prints_table() {
                 eprintln!(
-                    "{:28} {width:.0e}: {:5} nodes, {:2} programmes, {:6.2} s, width {:.2e}, {:?}",
+                    "{:28} {width:.0e}: {:5} nodes, {:2} programs, {:6.2} s, width {:.2e}, {:?}",
                     case.name,
                     certificate.nodes(),
-                    certificate.programmes(),
+                    certificate.programs(),
                     begin.elapsed().as_secs_f64(),
                     certificate.width(),
                     certificate.end().unwrap(),
@@ -128,13 +128,13 @@ fn bad_input_is_refused_and_stopping_keeps_the_work() {
     let stop = certificate.stop_signal();
     stop.store(true, std::sync::atomic::Ordering::Relaxed);
     assert_eq!(certificate.advance(), Ok(None));
-    assert_eq!(certificate.programmes(), 0);
+    assert_eq!(certificate.programs(), 0);
     stop.store(false, std::sync::atomic::Ordering::Relaxed);
     while certificate.advance().unwrap().is_none() {}
     assert_eq!(certificate.end(), Some(CertificateEnd::UpperBoundLimits));
     certificate.improve(vec![a, b], cost(&[a, b]));
     assert_eq!(certificate.end(), Some(CertificateEnd::Reached));
-    let programmes = certificate.programmes();
+    let programs = certificate.programs();
     assert_eq!(certificate.advance(), Ok(Some(CertificateEnd::Reached)));
-    assert_eq!(certificate.programmes(), programmes, "nothing is left to do");
+    assert_eq!(certificate.programs(), programs, "nothing is left to do");
 }

@@ -187,7 +187,7 @@ fn the_upper_bound_of_a_cost_is_as_close_as_asked_for() {
     let cost = FormulaCost { formula, risk: RiskField::default() };
     let exact = (3.0_f64.exp() - 1.0) / 3.0;
     for tolerance in [1e-2, 1e-4, 1e-6] {
-        let figures = PathFigures::of(&[DVec2::ZERO, dvec2(1.0, 0.0)], &cost, tolerance);
+        let figures = PathFigures::new(&[DVec2::ZERO, dvec2(1.0, 0.0)], &cost, tolerance);
         assert!(figures.upper >= exact && figures.upper <= exact * (1.0 + 2.0 * tolerance), "{figures:?}");
         assert!((figures.cost - exact).abs() <= tolerance * exact);
     }

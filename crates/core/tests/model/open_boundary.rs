@@ -96,11 +96,14 @@ fn sea(west: f64, south: f64, size: [f64; 2]) -> Vec<Ring> {
 }
 
 fn projected(rings: &[Ring], choice: &str) -> (Domain, Reprojection) {
-    let extent = GeographicExtent::of_rings(rings.iter().map(Vec::as_slice)).unwrap();
+    let extent = GeographicExtent::from_rings(rings.iter().map(Vec::as_slice)).unwrap();
     let projection = choice.parse::<ProjectionChoice>().unwrap().projection(&extent).unwrap();
     let reprojection = Reprojection { from: Coordinates::Geographic, to: projection };
     let polygons = projected_polygons(&[rings.to_vec()], &reprojection);
-    (Domain::of_polygons_on_earth(&polygons, &OutlineOnEarth::of(&reprojection)).unwrap(), reprojection)
+    (
+        Domain::of_polygons_on_earth(&polygons, &OutlineOnEarth::from_reprojection(&reprojection)).unwrap(),
+        reprojection,
+    )
 }
 
 const SIDES: [&str; 3] = ["open south", "open north", "open west"];
@@ -193,7 +196,10 @@ fn a_box_that_is_turned_in_a_plane_is_open() {
     let reprojection = Reprojection { from: zone, to };
     let polygons = projected_polygons(&[turned], &reprojection);
     assert_eq!(
-        open(&Domain::of_polygons_on_earth(&polygons, &OutlineOnEarth::of(&reprojection)).unwrap()),
+        open(
+            &Domain::of_polygons_on_earth(&polygons, &OutlineOnEarth::from_reprojection(&reprojection))
+                .unwrap()
+        ),
         SIDES
     );
 }

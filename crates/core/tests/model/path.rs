@@ -364,7 +364,7 @@ fn the_upper_bound_holds_for_a_formula_that_loses_digits() {
     let [p, q] = [dvec2(0.12, 0.5), dvec2(0.24, 0.5)];
     let places = (0..100_000).map(|n| (f64::from(n) + 0.5) / 1e5);
     let sum = places.map(|share| density.at(p.lerp(q, share))).sum::<f64>() * p.distance(q) / 1e5;
-    let figures = PathFigures::of(&[p, q], &density, 2e-5);
+    let figures = PathFigures::new(&[p, q], &density, 2e-5);
     assert!(figures.upper >= sum * (1.0 - 1e-6), "{} {sum}", figures.upper);
     assert!(figures.upper <= sum * 1.01, "{} {sum}", figures.upper);
 }

@@ -219,7 +219,7 @@ fn costs_add_up_over_lengths_on_the_ellipsoid() {
         let sea = Sea::new(plane, &cost);
         let mut random = Rng::with_seed(120 + number as u64);
         let line: Vec<DVec2> = (0..6).map(|_| sea.place(&mut random)).collect();
-        let figures = PathFigures::of(&line, &*sea.density, 1e-6);
+        let figures = PathFigures::new(&line, &*sea.density, 1e-6);
         let cost_at = |at: DVec2| 2.0 + (at.x / 3e5).sin() * (at.y / 2e5).cos();
         let sum = sea.cost_of(&line, cost_at);
         let off = figures.cost / sum - 1.0;

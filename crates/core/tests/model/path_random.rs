@@ -104,8 +104,8 @@ fn the_intervals_of_two_meshes_and_a_certificate_overlap() {
         let new = [a.gap(), b.gap(), certificate.width()];
         widths.iter_mut().zip(new).for_each(|(sum, width)| *sum += width);
         if prints_table() {
-            let (nodes, programmes) = (certificate.nodes(), certificate.programmes());
-            eprintln!("{seed}: {new:.4?} {nodes} nodes, {programmes} programmes, {:?}", certificate.end());
+            let (nodes, programs) = (certificate.nodes(), certificate.programs());
+            eprintln!("{seed}: {new:.4?} {nodes} nodes, {programs} programs, {:?}", certificate.end());
         }
     }
     let widths = widths.map(|sum| sum / f64::from(compared));

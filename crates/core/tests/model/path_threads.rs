@@ -81,7 +81,7 @@ fn found(seed: u64) -> Vec<Vec<u64>> {
             );
             let task = CertificateTask { most_nodes: 600, ..task.unwrap() };
             let mut certificate = PathCertificate::new(&solution, &task).unwrap();
-            while certificate.programmes() < 3 && certificate.advance().unwrap().is_none() {}
+            while certificate.programs() < 3 && certificate.advance().unwrap().is_none() {}
             all.push(bits(&certificate.solution()));
         }
     }

@@ -47,7 +47,7 @@ fn certified(planner: &Planner, solution: &Solution, cost: &WeightedCost, width:
 #[test]
 fn no_search_in_many_directions_finds_a_better_valley_on_a_coarse_mesh() {
     let ends = [dvec2(5.0, 10.0), dvec2(95.0, 85.0)];
-    // In the first of them, marches prefer the dearer of two valleys by 2 %.
+    // In the first of them, marches prefer the more expensive of two valleys by 2 %.
     for seed in [913].into_iter().chain(seeds(20)) {
         let mut random = fastrand::Rng::with_seed(seed);
         let cost = random_cost(&mut random);
@@ -95,7 +95,7 @@ fn a_certificate_finds_the_better_valley_of_a_path_that_it_cannot_prove() {
         assert!(proved.cost <= 1.02 * best.cost && proved.upper >= certificate.lower(), "{message}");
         let [proof] = &certificate.proofs()[..] else { panic!("one leg") };
         assert!(proof.path == proved.points && proof.upper == proved.upper, "{message}");
-        let figures = PathFigures::of(&proved.points, &cost, 1e-4);
+        let figures = PathFigures::new(&proved.points, &cost, 1e-4);
         assert!((figures.cost - proved.cost).abs() < 1e-3 * proved.cost, "{message}");
     }
 }

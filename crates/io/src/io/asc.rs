@@ -16,7 +16,7 @@ use super::disk::File;
 use super::error::PlacedFlaw;
 use super::gdal_metadata::BandMetadata;
 use super::rows::reverse_rows;
-use super::samples::{NoData, SampleType, Unpacking, no_rectangle};
+use super::samples::{NoData, SampleType, SampleUnpacking, no_rectangle};
 use super::vertical::ValueUnit;
 use super::{FileGrid, Flaw, GridPlace, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::raster::{LONGEST_SIDE, Raster, is_raster_size};
@@ -59,11 +59,11 @@ fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<FileGr
         let metadata = BandMetadata::beside(path, 0);
         let vertical = CoordinateSystem::beside(path).map(|system| system.vertical).unwrap_or_default();
         let unit = ValueUnit::named(metadata.unit.as_deref().unwrap_or_default()).or(vertical.unit);
-        let unpacking = Unpacking {
+        let unpacking = SampleUnpacking {
             scale: metadata.scale.unwrap_or(1.0),
             offset: metadata.offset.unwrap_or(0.0),
             unit,
-            ..Unpacking::plain(REMEDY)
+            ..SampleUnpacking::plain(REMEDY)
         };
         parse_over(BufReader::with_capacity(1 << 16, meter.count(file)), place, unpacking)
     });
@@ -161,17 +161,17 @@ impl fmt::Display for Single {
 }
 
 fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
-    parse_over(source, None, Unpacking::plain(REMEDY)).map(|grid| grid.raster)
+    parse_over(source, None, SampleUnpacking::plain(REMEDY)).map(|grid| grid.raster)
 }
 
 /// `unpacking` is what is said beside the file about its values.
 fn parse_over(
     source: impl BufRead,
     place: Option<Rect>,
-    mut unpacking: Unpacking,
+    mut unpacking: SampleUnpacking,
 ) -> Result<FileGrid, PlacedFlaw> {
     let mut words = Words { source, line: 1, word: String::new() };
-    let header = Header::parse(&mut words)?;
+    let header = AscHeader::parse(&mut words)?;
     let [columns, rows] = header.size()?;
     let bounds = header.bounds([columns, rows])?;
     unpacking.marks = vec![header.no_data()];
@@ -205,7 +205,7 @@ fn parse_over(
 const USUAL_NO_DATA: f64 = -9999.0;
 
 /// What the header says.
-struct Header {
+struct AscHeader {
     /// Its names in lower case, with their numbers.
     numbers: HashMap<String, f64>,
     /// What marks a cell without a value, where that is no number.
@@ -216,7 +216,7 @@ const NAMES: [&str; 10] =
     ["ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx", "dy", NO_DATA];
 const NO_DATA: &str = "nodata_value";
 
-impl Header {
+impl AscHeader {
     /// Reads names and numbers up to the first number in the place of a name. That is the first value; it
     /// stays the current word.
     fn parse(words: &mut Words<impl BufRead>) -> Result<Self, PlacedFlaw> {
@@ -409,7 +409,7 @@ mod tests {
             assert_eq!(parse(BufReader::with_capacity(capacity, text.as_bytes())).unwrap(), whole);
             let cut =
                 parse(BufReader::with_capacity(capacity, &text.as_bytes()[..text.len() - 2])).unwrap_err();
-            assert_eq!(cut.place, super::super::Place::Line(8), "{capacity}");
+            assert_eq!(cut.place, super::super::PlaceInFile::Line(8), "{capacity}");
         }
     }
 

@@ -19,19 +19,19 @@ pub const BLOCK: usize = 1 << 18;
 pub struct Blocks<'a, F> {
     meter: &'a Meter,
     /// Blocks that are full, and one that is being filled.
-    blocks: Vec<Block>,
+    blocks: Vec<CompressedBlock>,
     /// The one that is being filled.
     current: usize,
     take: F,
 }
 
 #[derive(Clone, Default)]
-struct Block {
+struct CompressedBlock {
     raw: Vec<u8>,
     compressed: Vec<u8>,
 }
 
-impl Block {
+impl CompressedBlock {
     fn compress(&mut self) -> io::Result<()> {
         self.compressed.clear();
         // Higher levels take several times as long for files a tenth smaller.
@@ -45,7 +45,12 @@ impl Block {
 impl<'a, F: FnMut(&[u8]) -> io::Result<()>> Blocks<'a, F> {
     /// Compresses into `take`, which receives one compressed block after the other.
     pub fn new(meter: &'a Meter, take: F) -> Self {
-        Self { meter, blocks: vec![Block::default(); rayon::current_num_threads()], current: 0, take }
+        Self {
+            meter,
+            blocks: vec![CompressedBlock::default(); rayon::current_num_threads()],
+            current: 0,
+            take,
+        }
     }
 
     /// Compresses the rest, the last block maybe shorter.
@@ -59,7 +64,7 @@ impl<'a, F: FnMut(&[u8]) -> io::Result<()>> Blocks<'a, F> {
     fn compress_blocks(&mut self) -> io::Result<()> {
         let is_begun = self.blocks.get(self.current).is_some_and(|block| !block.raw.is_empty());
         let begun = &mut self.blocks[..self.current + usize::from(is_begun)];
-        begun.par_iter_mut().try_for_each(Block::compress)?;
+        begun.par_iter_mut().try_for_each(CompressedBlock::compress)?;
         for block in begun {
             (self.take)(&block.compressed)?;
             self.meter.add(block.raw.len() as u64)?;

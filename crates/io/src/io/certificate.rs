@@ -46,7 +46,7 @@ pub struct CertifiedPath<'a> {
 /// # Errors
 /// Fails with the errors of `out`.
 pub fn write_path(out: &mut dyn Write, path: &CertifiedPath<'_>, provenance: &Provenance) -> io::Result<()> {
-    let file = File::new(path, provenance);
+    let file = CertificateFile::new(path, provenance);
     serde_json::to_writer(&mut *out, &file)?;
     writeln!(out)
 }
@@ -142,7 +142,7 @@ fn origin(provenance: &Provenance) -> serde_json::Map<String, serde_json::Value>
 }
 
 #[derive(Serialize)]
-struct File<'a> {
+struct CertificateFile<'a> {
     format: &'static str,
     version: u32,
     about: &'static str,
@@ -174,7 +174,7 @@ struct LegOfFile<'a> {
     minorants: &'a [[f64; 3]],
 }
 
-impl<'a> File<'a> {
+impl<'a> CertificateFile<'a> {
     fn new(path: &CertifiedPath<'a>, provenance: &Provenance) -> Self {
         let CertifiedPath { proofs, cost, domain, keep_out, clearance, lower, upper } = *path;
         let is_flat = domain.ground().inverse_scale().is_none();

@@ -72,7 +72,7 @@ impl CoordinateSystem {
     }
 
     /// Returns the system of an EPSG code, as GeoTIFF keys state it.
-    pub(super) fn of_keys(kind: CoordinateKind, epsg: Option<u32>, name: Option<String>) -> Self {
+    pub(super) fn from_keys(kind: CoordinateKind, epsg: Option<u32>, name: Option<String>) -> Self {
         let by_code = epsg.map(coordinates::of_epsg);
         let named = || name.as_deref().and_then(GeographicSystem::named).map(GeographicSystem::coordinates);
         let on_earth = by_code.and_then(|known| known.on_earth(None)).or_else(|| match kind {
@@ -89,7 +89,7 @@ impl CoordinateSystem {
     }
 
     /// Returns what coordinates of these corners are, beside a text that describes their system.
-    pub(super) fn of_corners(
+    pub(super) fn from_corners(
         system: Option<&Self>,
         corners: impl IntoIterator<Item = DVec2>,
     ) -> FileCoordinates {
@@ -318,7 +318,7 @@ mod tests {
 
     #[test]
     fn a_code_tells_the_unit() {
-        let projected = |code| CoordinateSystem::of_keys(CoordinateKind::Projected, code, None).unit;
+        let projected = |code| CoordinateSystem::from_keys(CoordinateKind::Projected, code, None).unit;
         assert_eq!([projected(Some(32633)), projected(Some(2263))], [LengthUnit::Metre, LengthUnit::None]);
         assert_eq!(projected(None), LengthUnit::None);
     }

@@ -15,7 +15,7 @@ pub struct ReadError {
     /// The file as it was named.
     pub file: PathBuf,
     /// The place in the file.
-    pub place: Place,
+    pub place: PlaceInFile,
     /// The mistake at this place.
     #[source]
     pub flaw: Flaw,
@@ -23,7 +23,7 @@ pub struct ReadError {
 
 /// A place in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum PlaceInFile {
     /// The file as a whole.
     Whole,
     /// A line, counted from one.
@@ -39,7 +39,7 @@ pub enum Place {
     Part(&'static str, Option<usize>),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for PlaceInFile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Whole => Ok(()),
@@ -90,7 +90,7 @@ pub enum Flaw {
 impl Flaw {
     /// Returns the flaw with its line, counted from one.
     pub(super) fn at(self, line: usize) -> PlacedFlaw {
-        PlacedFlaw { place: Place::Line(line), flaw: self }
+        PlacedFlaw { place: PlaceInFile::Line(line), flaw: self }
     }
 }
 
@@ -103,15 +103,15 @@ impl From<Cancelled> for Flaw {
 /// A flaw with its place, before the file is known.
 #[derive(Debug)]
 pub(super) struct PlacedFlaw {
-    pub(super) place: Place,
+    pub(super) place: PlaceInFile,
     pub(super) flaw: Flaw,
 }
 
 impl PlacedFlaw {
     /// Returns the flaw as one in a part of an archive.
     pub(super) fn within(self, part: &'static str) -> Self {
-        let line = if let Place::Line(line) = self.place { Some(line) } else { None };
-        Self { place: Place::Part(part, line), flaw: self.flaw }
+        let line = if let PlaceInFile::Line(line) = self.place { Some(line) } else { None };
+        Self { place: PlaceInFile::Part(part, line), flaw: self.flaw }
     }
 
     pub(super) fn in_file(self, file: &Path) -> ReadError {
@@ -121,6 +121,6 @@ impl PlacedFlaw {
 
 impl<F: Into<Flaw>> From<F> for PlacedFlaw {
     fn from(flaw: F) -> Self {
-        Self { place: Place::Whole, flaw: flaw.into() }
+        Self { place: PlaceInFile::Whole, flaw: flaw.into() }
     }
 }

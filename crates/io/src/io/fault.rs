@@ -141,7 +141,7 @@ impl KeyFault {
 
     /// Returns the fault of a value of another type than `expected`, a noun phrase.
     pub(super) fn not_a(expected: impl Display, given: Unexpected) -> Self {
-        Self::here(format!("this must be {expected}, not {}.", Given(given)))
+        Self::here(format!("this must be {expected}, not {}.", UnexpectedValue(given)))
     }
 }
 
@@ -201,9 +201,9 @@ impl Display for KeyPath<'_> {
 }
 
 /// A value that was found in place of another, for a person.
-struct Given<'a>(Unexpected<'a>);
+struct UnexpectedValue<'a>(Unexpected<'a>);
 
-impl Display for Given<'_> {
+impl Display for UnexpectedValue<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Unexpected::Bool(value) => write!(f, "{value}"),

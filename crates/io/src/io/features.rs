@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::error::{Flaw, PlacedFlaw};
 use super::json::problem;
-use super::positions::Coordinates;
+use super::positions::NestedPositions;
 use meshbrush_core::domain::MOST_CORNERS;
 use meshbrush_mesh::text::Grouped;
 
@@ -30,7 +30,7 @@ pub(super) struct Object<W> {
     #[serde(rename = "type")]
     pub(super) kind: String,
     #[serde(default)]
-    pub(super) coordinates: Option<Coordinates>,
+    pub(super) coordinates: Option<NestedPositions>,
     /// The name that the properties of a feature give it; empty if they give none.
     #[serde(default, rename = "properties", deserialize_with = "name_of")]
     pub(super) name: String,

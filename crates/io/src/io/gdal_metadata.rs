@@ -26,7 +26,7 @@ pub(super) struct BandMetadata {
 
 impl BandMetadata {
     /// Returns what the tag of a GeoTIFF says about a band, counted from 0; nothing where it is damaged.
-    pub(super) fn of_tag(xml: &str, band: usize) -> Self {
+    pub(super) fn from_tag(xml: &str, band: usize) -> Self {
         let Ok(document) = Document::parse(xml) else { return Self::default() };
         let is_of_band = |item: &Node| {
             item.attribute("sample").and_then(|sample| sample.parse().ok()).unwrap_or(0) == band
@@ -52,12 +52,12 @@ impl BandMetadata {
         let Ok(file) = File::open(path.with_file_name(name)) else { return Self::default() };
         let mut bytes = Vec::new();
         match file.take(MOST_BYTES).read_to_end(&mut bytes) {
-            Ok(_) => Self::of_description(&String::from_utf8_lossy(&bytes), band),
+            Ok(_) => Self::from_description(&String::from_utf8_lossy(&bytes), band),
             Err(_) => Self::default(),
         }
     }
 
-    fn of_description(xml: &str, band: usize) -> Self {
+    fn from_description(xml: &str, band: usize) -> Self {
         let Ok(document) = Document::parse(xml) else { return Self::default() };
         let number = (band + 1).to_string();
         let of_band = |node: &Node| {
@@ -99,14 +99,14 @@ mod tests {
             <Item name="UNITTYPE" sample="1" role="unittype">US survey foot</Item></GDALMetadata>"#;
         let unit = Some("US survey foot".to_owned());
         let expected = BandMetadata { scale: Some(0.1), offset: Some(-5.0), unit, no_data: None };
-        assert_eq!(BandMetadata::of_tag(tag, 1), expected);
-        assert_eq!(BandMetadata::of_tag(tag, 0), BandMetadata::default());
+        assert_eq!(BandMetadata::from_tag(tag, 1), expected);
+        assert_eq!(BandMetadata::from_tag(tag, 0), BandMetadata::default());
         let beside = r#"<PAMDataset><PAMRasterBand band="2"><Scale>0.1</Scale><Offset>-5</Offset>
             <UnitType>US survey foot</UnitType></PAMRasterBand></PAMDataset>"#;
-        assert_eq!(BandMetadata::of_description(beside, 1), expected);
+        assert_eq!(BandMetadata::from_description(beside, 1), expected);
         for text in ["", "<", "<a/>", "<GDALMetadata>"] {
             assert_eq!(
-                BandMetadata::of_tag(text, 0).or(BandMetadata::of_description(text, 0)),
+                BandMetadata::from_tag(text, 0).or(BandMetadata::from_description(text, 0)),
                 BandMetadata::default()
             );
         }

@@ -68,7 +68,8 @@ impl Outline {
             return Ok((Self { coordinates: FileCoordinates::Known(from), ..self }, own));
         }
         let rings = self.polygons.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
-        let extent = GeographicExtent::of_coordinates(&from, rings).ok_or(ProjectOutlineError::NotOnEarth)?;
+        let extent =
+            GeographicExtent::from_coordinates(&from, rings).ok_or(ProjectOutlineError::NotOnEarth)?;
         let projection = choice.projection(&extent)?;
         Ok((self.reprojected(&Reprojection { from, to: projection }), projection))
     }

@@ -26,7 +26,7 @@ use super::error::PlacedFlaw;
 use super::gdal_metadata::BandMetadata;
 use super::raster_file::file_and_part;
 use super::rows::reverse_rows;
-use super::samples::{NoData, SampleType, Unpacking};
+use super::samples::{NoData, SampleType, SampleUnpacking};
 use super::vertical::ValueUnit;
 use super::{
     FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster, ValueFacts, world_file,
@@ -37,7 +37,7 @@ use mask::Mask;
 use meshbrush_core::raster::{Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
-use place::{Keys, Placement};
+use place::{GeoKeys, Placement};
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
@@ -162,19 +162,19 @@ impl Pixels {
         }
         let mut decoder = open(source, &directories)?;
         let layout = Layout::read(&mut decoder, band.unwrap_or(0))?;
-        let keys = Keys::read(&mut decoder)?;
+        let keys = GeoKeys::read(&mut decoder)?;
         let placement = place::read(&mut decoder, &keys, layout.size)?;
         let (vertical, metadata) =
             (keys.vertical(), band_metadata(&mut decoder, &layout)?.or(beside.metadata));
         let unit = ValueUnit::named(metadata.unit.as_deref().unwrap_or_default()).or(vertical.unit);
         let no_data = layout.no_data(&metadata)?;
-        let mut unpacking = Unpacking {
+        let mut unpacking = SampleUnpacking {
             marks: no_data.into_iter().collect(),
             has_declared: no_data.is_some(),
             scale: metadata.scale.unwrap_or(1.0),
             offset: metadata.offset.unwrap_or(0.0),
             unit,
-            ..Unpacking::plain(REMEDY)
+            ..SampleUnpacking::plain(REMEDY)
         };
         let mut values = layout.values(&mut decoder, &mut unpacking)?;
         layout.hide_transparent(&mut decoder, &mut values)?;
@@ -295,7 +295,7 @@ impl Layout {
         let chunk = self.chunk;
         let (stored, no_data) = (self.stored.clone(), None);
         let opacity = Self { band, opacity: None, stored, no_data, chunk, ..*self };
-        let opacity = opacity.values(decoder, &mut Unpacking::plain(REMEDY))?;
+        let opacity = opacity.values(decoder, &mut SampleUnpacking::plain(REMEDY))?;
         let pairs = values.iter_mut().zip(opacity);
         pairs.filter(|(_, opacity)| *opacity == 0.0).for_each(|(value, _)| *value = f32::NAN);
         Ok(())
@@ -306,7 +306,7 @@ impl Layout {
     fn values(
         &self,
         decoder: &mut Decoder<impl Read + Seek>,
-        unpacking: &mut Unpacking,
+        unpacking: &mut SampleUnpacking,
     ) -> Result<Vec<f32>, Flaw> {
         let [columns, rows] = self.size;
         let [width, height] = self.chunk;
@@ -341,7 +341,7 @@ impl Layout {
         chunk: &DecodingResult,
         rows: &mut [f32],
         columns: [u32; 2],
-        unpacking: &mut Unpacking,
+        unpacking: &mut SampleUnpacking,
     ) -> Result<(), Flaw> {
         match chunk {
             DecodingResult::U8(samples) => self.copy(samples, |s| s.into(), rows, columns, unpacking),
@@ -364,7 +364,7 @@ impl Layout {
         number: impl Fn(T) -> f64,
         rows: &mut [f32],
         columns: [u32; 2],
-        unpacking: &mut Unpacking,
+        unpacking: &mut SampleUnpacking,
     ) -> Result<(), Flaw> {
         let [left, width] = columns.map(|column| column as usize);
         let first = if self.step == 1 { 0 } else { self.band };
@@ -386,7 +386,7 @@ const REMEDY: &str = "If it marks pixels without a value, say so in the file wit
 fn band_metadata(decoder: &mut Decoder<impl Read + Seek>, layout: &Layout) -> Result<BandMetadata, Flaw> {
     let text = decoder.find_tag(Tag::Unknown(GDAL_METADATA))?.and_then(|text| text.into_string().ok());
     Ok(text.map_or_else(BandMetadata::default, |text| {
-        BandMetadata::of_tag(text.trim_end_matches('\0'), layout.band)
+        BandMetadata::from_tag(text.trim_end_matches('\0'), layout.band)
     }))
 }
 

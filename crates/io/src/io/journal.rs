@@ -62,12 +62,12 @@ pub struct Journal {
     whole: u64,
     /// Bytes of the records since.
     grown: u64,
-    stage: Stage,
+    stage: RenewalStage,
 }
 
 /// Whether a shorter journal is being made.
 #[derive(Debug)]
-enum Stage {
+enum RenewalStage {
     /// It is not.
     Growing,
     /// Another thread packs it, until the meter is cancelled. These records are not in it yet.
@@ -99,7 +99,7 @@ impl Journal {
         fs::rename(&part, &path).inspect_err(|_| {
             let _ = fs::remove_file(&part); // the first error is the one to report
         })?;
-        Ok(Self { file, path, home, recorded, whole: bytes, grown: 0, stage: Stage::Growing })
+        Ok(Self { file, path, home, recorded, whole: bytes, grown: 0, stage: RenewalStage::Growing })
     }
 
     /// Adds the state of the document after a gesture: its settings, unless they are as before, and its
@@ -136,11 +136,11 @@ impl Journal {
     /// is under way. `time` is in seconds since 1970.
     pub fn renewal(&mut self, time: u64) -> Option<Renewal> {
         let is_long = self.grown > self.whole.max(LEAST_GROWTH);
-        if !is_long || matches!(self.stage, Stage::Renewing { .. }) {
+        if !is_long || matches!(self.stage, RenewalStage::Renewing { .. }) {
             return None;
         }
         let meter = Meter::default();
-        self.stage = Stage::Renewing { meter: meter.clone(), missing: Vec::new() };
+        self.stage = RenewalStage::Renewing { meter: meter.clone(), missing: Vec::new() };
         let folder = self.path.parent().unwrap_or(Path::new("")).to_owned();
         let change = self.recorded.begin_again();
         Some(Renewal { folder, home: self.home.clone(), change, time, meter })
@@ -152,7 +152,7 @@ impl Journal {
     /// # Errors
     /// Fails with the errors of the file system.
     pub fn complete(&mut self, renewed: &mut Renewed) -> io::Result<()> {
-        if let Stage::Renewing { missing, .. } = &mut self.stage {
+        if let RenewalStage::Renewing { missing, .. } = &mut self.stage {
             renewed.file.write_all(missing)?;
             renewed.grown += std::mem::take(missing).len() as u64;
         }
@@ -164,7 +164,7 @@ impl Journal {
     /// # Errors
     /// Fails with the errors of the file system. Records are then added to the longer journal.
     pub fn replace_by(&mut self, mut renewed: Renewed) -> io::Result<()> {
-        if renewed.is_unwanted() || !matches!(self.stage, Stage::Renewing { .. }) {
+        if renewed.is_unwanted() || !matches!(self.stage, RenewalStage::Renewing { .. }) {
             return renewed.discard();
         }
         let completed = self.complete(&mut renewed).and_then(|()| fs::rename(&renewed.part, &self.path));
@@ -173,18 +173,18 @@ impl Journal {
             return Err(error);
         }
         let Renewed { file, bytes, grown, .. } = renewed;
-        (self.file, self.whole, self.grown, self.stage) = (file, bytes, grown, Stage::Growing);
+        (self.file, self.whole, self.grown, self.stage) = (file, bytes, grown, RenewalStage::Growing);
         Ok(())
     }
 
     /// Gives up the work of making a shorter journal. The next attempt follows when this one is twice as
     /// long.
     pub fn give_up_renewal(&mut self) {
-        if let Stage::Renewing { meter, .. } = &self.stage {
+        if let RenewalStage::Renewing { meter, .. } = &self.stage {
             meter.cancel();
             self.whole = self.whole.max(self.grown);
             self.grown = 0;
-            self.stage = Stage::Growing;
+            self.stage = RenewalStage::Growing;
         }
     }
 
@@ -202,7 +202,7 @@ impl Journal {
     fn append(&mut self, record: &[u8]) -> io::Result<()> {
         self.file.write_all(record)?;
         self.grown += record.len() as u64;
-        if let Stage::Renewing { missing, .. } = &mut self.stage {
+        if let RenewalStage::Renewing { missing, .. } = &mut self.stage {
             missing.extend(record);
         }
         Ok(())

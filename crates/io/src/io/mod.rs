@@ -104,7 +104,7 @@ pub use atomic::{exists, is_read_only, make_folder, obstacle, remove_new, write_
 pub use claim::Claim;
 pub use coordinate_system::{CoordinateKind, CoordinateSystem};
 pub use coordinates::{DocumentPlane, FileCoordinates};
-pub use error::{Flaw, Place, ReadError};
+pub use error::{Flaw, PlaceInFile, ReadError};
 pub use fault::{KeyFault, Mark, Step, nearest_word};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use format_spec::{

@@ -49,13 +49,13 @@ pub fn write_binary(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io
 
 /// A number of the file.
 #[derive(Clone, Copy)]
-enum Value {
+enum MshNumber {
     Int(i32),
     Size(usize),
     Real(f64),
 }
 
-use Value::{Int, Real, Size};
+use MshNumber::{Int, Real, Size};
 
 struct Writer<'a, W> {
     out: &'a mut W,
@@ -115,7 +115,7 @@ impl<W: Write> Writer<'_, W> {
             let group = [Size(1), Int(curve.tag()), Size(0)];
             self.row(&[&[Int(curve.tag())], &box_values(&curve.bounds, curve.heights)[..], &group].concat())?;
         }
-        let boundary: Vec<Value> = curves.iter().map(|curve| Int(curve.tag())).collect();
+        let boundary: Vec<MshNumber> = curves.iter().map(|curve| Int(curve.tag())).collect();
         let group = [Size(1), Int(SURFACE), Size(curves.len())];
         let bounds = box_values(&mesh.lattice().bounds(), height_range(data, 0..mesh.nodes().len()));
         self.row(&[&[Int(SURFACE)], &bounds[..], &group, &boundary].concat())?;
@@ -172,7 +172,7 @@ impl<W: Write> Writer<'_, W> {
         self.end(section)
     }
 
-    fn row(&mut self, values: &[Value]) -> io::Result<()> {
+    fn row(&mut self, values: &[MshNumber]) -> io::Result<()> {
         write_row(self.out, values, self.is_binary)
     }
 
@@ -180,7 +180,7 @@ impl<W: Write> Writer<'_, W> {
     fn rows<const N: usize>(
         &mut self,
         count: usize,
-        values: impl Fn(usize) -> [Value; N] + Sync,
+        values: impl Fn(usize) -> [MshNumber; N] + Sync,
     ) -> io::Result<()> {
         let is_binary = self.is_binary;
         write_rows(self.out, count, |out, number| write_row(out, &values(number), is_binary))
@@ -193,7 +193,7 @@ impl<W: Write> Writer<'_, W> {
 }
 
 /// A line of text, or the bytes of the numbers.
-fn write_row(out: &mut impl Write, values: &[Value], is_binary: bool) -> io::Result<()> {
+fn write_row(out: &mut impl Write, values: &[MshNumber], is_binary: bool) -> io::Result<()> {
     if is_binary {
         return values.iter().try_for_each(|value| match value {
             Int(n) => out.write_all(&n.to_le_bytes()),
@@ -250,7 +250,7 @@ fn height_range(data: &MeshData, nodes: impl Iterator<Item = usize>) -> [f64; 2]
 }
 
 /// Returns the lower and the upper corner of a box.
-fn box_values(bounds: &Rect, [lowest, highest]: [f64; 2]) -> [Value; 6] {
+fn box_values(bounds: &Rect, [lowest, highest]: [f64; 2]) -> [MshNumber; 6] {
     let Rect { min, max } = bounds;
     [Real(min.x), Real(min.y), Real(lowest), Real(max.x), Real(max.y), Real(highest)]
 }

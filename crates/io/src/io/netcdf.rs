@@ -26,12 +26,12 @@ use super::disk::File;
 use super::error::PlacedFlaw;
 use super::raster_file::file_and_part;
 use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster, ValueFacts};
-use contents::{Sample, Source};
+use contents::{Source, StoredType};
 use grid::Grid;
 use meshbrush_core::raster::{LONGEST_SIDE, MOST_PIXELS, Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Grouped, Number};
-use packing::Packing;
+use packing::SamplePacking;
 use window::Span;
 
 /// The format, for the list of all formats of rasters.
@@ -166,8 +166,8 @@ fn values(
 ) -> Result<(Vec<f32>, ValueFacts), Flaw> {
     let [x, y] = spans;
     let variable = &source.variables()[grid.variable];
-    let (mut packing, rank) = (Packing::of(variable), variable.dimensions.len());
-    let sample = variable.sample.map_or(1, Sample::bytes) as u64;
+    let (mut packing, rank) = (SamplePacking::of(variable), variable.dimensions.len());
+    let sample = variable.sample.map_or(1, StoredType::bytes) as u64;
     let width: u64 = x.pieces.iter().map(|piece| piece.file.end - piece.file.start).sum();
     meter.expect(width * y.count * sample);
     let columns = x.count as usize;
@@ -177,7 +177,7 @@ fn values(
         let start = values.len();
         values.resize(start + count as usize * columns, f32::NAN);
         for piece in &x.pieces {
-            let block = Block { grid, rank, columns: piece.file.clone(), rows: y.rows(bottom, count) };
+            let block = PixelBlock { grid, rank, columns: piece.file.clone(), rows: y.rows(bottom, count) };
             let samples = block.read(source)?;
             let rows = values[start..].chunks_exact_mut(columns);
             for (row, place) in rows.enumerate() {
@@ -193,7 +193,7 @@ fn values(
 }
 
 /// Pixels that are read at once: their numbers in the file.
-struct Block<'a> {
+struct PixelBlock<'a> {
     grid: &'a Grid,
     /// The number of dimensions of the grid.
     rank: usize,
@@ -201,7 +201,7 @@ struct Block<'a> {
     rows: Range<u64>,
 }
 
-impl Block<'_> {
+impl PixelBlock<'_> {
     fn read(&self, source: &mut dyn Source) -> Result<Vec<f64>, Flaw> {
         let (mut corner, mut extent) = (vec![0; self.rank], vec![1; self.rank]);
         for (side, range) in [(self.grid.x, &self.columns), (self.grid.y, &self.rows)] {

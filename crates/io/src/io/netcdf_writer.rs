@@ -43,14 +43,14 @@ pub(super) type Attributes = Vec<(&'static str, AttributeValue)>;
 
 /// The type of the values of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum VariableType {
     /// Whole numbers of 4 bytes.
     Int,
     /// Real numbers of 8 bytes.
     Double,
 }
 
-impl Kind {
+impl VariableType {
     fn bytes(self) -> u64 {
         match self {
             Self::Int => 4,
@@ -71,11 +71,11 @@ const ATTRIBUTES: u32 = 12;
 pub(super) type WriteRow<'a> = Box<dyn Fn(&mut Vec<u8>, usize) -> io::Result<()> + Sync + 'a>;
 
 /// A variable, and a function that makes its values.
-pub(super) struct Variable<'a> {
+pub(super) struct WrittenVariable<'a> {
     /// Its name; no other variable has it.
     pub(super) name: String,
     /// The type of its values.
-    pub(super) kind: Kind,
+    pub(super) kind: VariableType,
     /// The numbers of its dimensions in [`Dataset::dimensions`]; none for a single value.
     pub(super) dimensions: Vec<usize>,
     /// Its attributes.
@@ -93,7 +93,7 @@ pub(super) struct Dataset<'a> {
     /// Attributes of the whole file.
     pub(super) attributes: Attributes,
     /// The variables, in the order of the file.
-    pub(super) variables: Vec<Variable<'a>>,
+    pub(super) variables: Vec<WrittenVariable<'a>>,
 }
 
 /// Most values along a dimension.
@@ -138,7 +138,7 @@ impl Dataset<'_> {
     }
 
     /// Returns the bytes of the values of a variable, a multiple of four.
-    fn bytes(&self, variable: &Variable) -> u64 {
+    fn bytes(&self, variable: &WrittenVariable) -> u64 {
         let counts = variable.dimensions.iter().map(|&dimension| self.dimensions[dimension].1 as u64);
         variable.kind.bytes() * counts.product::<u64>()
     }
@@ -169,7 +169,7 @@ impl Dataset<'_> {
             put(&mut header, variable.dimensions.len() as u32);
             variable.dimensions.iter().for_each(|&dimension| put(&mut header, dimension as u32));
             put_attributes(&mut header, &variable.attributes);
-            put(&mut header, if variable.kind == Kind::Int { INT } else { DOUBLE });
+            put(&mut header, if variable.kind == VariableType::Int { INT } else { DOUBLE });
             put(&mut header, self.bytes(variable) as u32);
             match is_long {
                 true => header.extend(offset.to_be_bytes()),
@@ -227,7 +227,7 @@ mod tests {
 
     /// Returns a file of two variables along one dimension. None of its values is made here.
     fn dataset(length: usize) -> Dataset<'static> {
-        let variable = |name: &str, kind| Variable {
+        let variable = |name: &str, kind| WrittenVariable {
             name: name.into(),
             kind,
             dimensions: vec![0],
@@ -235,7 +235,7 @@ mod tests {
             rows: length,
             write_row: Box::new(|_, _| unreachable!()),
         };
-        let variables = vec![variable("a", Kind::Double), variable("b", Kind::Int)];
+        let variables = vec![variable("a", VariableType::Double), variable("b", VariableType::Int)];
         Dataset { dimensions: vec![("n", length)], attributes: vec![("three", 3.into())], variables }
     }
 

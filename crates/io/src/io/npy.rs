@@ -9,7 +9,7 @@ use std::path::Path;
 use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
-use super::samples::Unpacking;
+use super::samples::SampleUnpacking;
 use super::{FileGrid, Flaw, Meter, RasterFormatSpec, ReadError, ReadRaster, ValueFacts};
 use meshbrush_core::raster::{Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
@@ -52,7 +52,7 @@ pub fn decode(source: impl Read, place: Rect) -> Result<Raster, Flaw> {
 }
 
 fn decode_grid(mut source: impl Read, place: Rect) -> Result<FileGrid, Flaw> {
-    let header = Header::read(&mut source)?;
+    let header = NpyHeader::read(&mut source)?;
     let (mut values, facts) = header.values(&mut source)?;
     if header.is_by_columns {
         values = by_rows(&values, header.size);
@@ -69,23 +69,23 @@ fn by_rows(values: &[f32], [columns, rows]: [u32; 2]) -> Vec<f32> {
 }
 
 /// What the header says.
-struct Header {
+struct NpyHeader {
     /// [columns, rows].
     size: [u32; 2],
-    sample: Sample,
+    sample: NpySample,
     is_by_columns: bool,
 }
 
 /// The type of a sample.
 #[derive(Clone, Copy)]
-struct Sample {
+struct NpySample {
     /// `f` floating-point, `i` signed, `u` unsigned, `b` true or false.
     kind: char,
     bytes: usize,
     is_big_endian: bool,
 }
 
-impl Header {
+impl NpyHeader {
     fn read(source: &mut impl Read) -> Result<Self, Flaw> {
         let [start @ .., major, _] = bytes::<8>(source)?;
         if &start != MAGIC {
@@ -112,7 +112,7 @@ impl Header {
 
     /// Parses the dictionary, such as `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`.
     fn parse(text: &str) -> Result<Self, Flaw> {
-        let sample = Sample::parse(value_of(text, "descr")?)?;
+        let sample = NpySample::parse(value_of(text, "descr")?)?;
         let is_by_columns = value_of(text, "fortran_order")?.starts_with("True");
         let shape = value_of(text, "shape")?;
         let inner = shape.strip_prefix('(').and_then(|shape| shape.split_once(')'));
@@ -140,7 +140,7 @@ impl Header {
     /// Returns the values in the order of the file. Memory grows with the values in the file.
     fn values(&self, source: &mut impl Read) -> Result<(Vec<f32>, ValueFacts), Flaw> {
         let count = self.size[0] as usize * self.size[1] as usize;
-        let mut unpacking = Unpacking::plain("Save numbers that are no data as nan.");
+        let mut unpacking = SampleUnpacking::plain("Save numbers that are no data as nan.");
         let mut values = Vec::new();
         let mut block = vec![0; BLOCK * self.sample.bytes];
         while values.len() < count {
@@ -154,7 +154,7 @@ impl Header {
     }
 }
 
-impl Sample {
+impl NpySample {
     /// Parses a type such as `'<f8'`.
     fn parse(text: &str) -> Result<Self, Flaw> {
         let quoted = text.strip_prefix(['\'', '"']).and_then(|text| text.split(['\'', '"']).next());

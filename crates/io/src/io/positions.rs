@@ -12,7 +12,7 @@ use meshbrush_mesh::text::Grouped;
 /// The positions of nested lists in one flat list: nested vectors would take several times the memory while
 /// reading.
 #[derive(Default)]
-pub(super) struct Coordinates {
+pub(super) struct NestedPositions {
     pub(super) positions: Vec<DVec2>,
     /// The end of each ring in `positions`, and of each polygon in `ring_ends`.
     ring_ends: Vec<usize>,
@@ -22,7 +22,7 @@ pub(super) struct Coordinates {
     pub(super) depth: usize,
 }
 
-impl Coordinates {
+impl NestedPositions {
     /// Returns the polygons, if the positions are nested `depth` deep.
     pub(super) fn polygons(mut self, kind: &str, depth: usize) -> Result<Vec<Polygon>, String> {
         if self.positions.is_empty() {
@@ -62,7 +62,7 @@ impl Coordinates {
     }
 }
 
-impl<'de> Deserialize<'de> for Coordinates {
+impl<'de> Deserialize<'de> for NestedPositions {
     fn deserialize<D: Deserializer<'de>>(json: D) -> Result<Self, D::Error> {
         let mut coordinates = Self::default();
         coordinates.depth = List(&mut coordinates).deserialize(json)?.depth();
@@ -74,7 +74,7 @@ impl<'de> Deserialize<'de> for Coordinates {
 const DEEPEST: usize = 4;
 
 /// Reads a list of numbers or of lists into the coordinates.
-struct List<'a>(&'a mut Coordinates);
+struct List<'a>(&'a mut NestedPositions);
 
 /// A value that was read.
 #[derive(Clone, Copy, PartialEq)]
@@ -149,7 +149,7 @@ impl<'de> Visitor<'de> for List<'_> {
     }
 }
 
-impl Coordinates {
+impl NestedPositions {
     /// Ends a list with positions nested `depth` deep.
     fn close(&mut self, position: DVec2, numbers: usize, depth: usize) -> Result<(), String> {
         match depth {

@@ -36,7 +36,7 @@ impl RasterFormat {
     ///
     /// # Errors
     /// Fails with a sentence when it is the ending of no raster.
-    pub fn of(path: &Path) -> Result<Self, String> {
+    pub fn from_path(path: &Path) -> Result<Self, String> {
         let (path, _) = file_and_part(path);
         let ending = path.extension().unwrap_or_default();
         let has = |format: &Self| format.endings().iter().any(|known| ending.eq_ignore_ascii_case(known));

@@ -81,7 +81,7 @@ const LEAST_GAP: f64 = 0.25;
 
 /// How the samples of a file become values.
 #[derive(Clone, Debug)]
-pub(super) struct Unpacking {
+pub(super) struct SampleUnpacking {
     /// Samples that are no value.
     pub(super) marks: Vec<NoData>,
     /// Whether the file declares some of them.
@@ -109,7 +109,7 @@ pub(super) struct Undeclared {
     high: [f64; 2],
 }
 
-impl Unpacking {
+impl SampleUnpacking {
     /// Returns what takes samples for values.
     pub(super) fn plain(remedy: &'static str) -> Self {
         Self {

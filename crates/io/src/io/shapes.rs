@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
-use super::positions::Coordinates;
+use super::positions::NestedPositions;
 use super::{FileCoordinates, Meter, coordinates, geojson};
 use meshbrush_core::domain::MOST_CORNERS;
 use meshbrush_core::layers::ShapeList;
@@ -127,7 +127,12 @@ fn depth_of(kind: &str) -> Option<usize> {
     }
 }
 
-fn take(kind: &str, coordinates: Coordinates, depth: usize, shapes: &mut ShapeList) -> Result<(), String> {
+fn take(
+    kind: &str,
+    coordinates: NestedPositions,
+    depth: usize,
+    shapes: &mut ShapeList,
+) -> Result<(), String> {
     if kind.ends_with("Polygon") {
         shapes.polygons.extend(coordinates.polygons(kind, depth)?);
         return Ok(());

@@ -43,7 +43,7 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
         return Err(PlacedFlaw::from(Flaw::Syntax(geojson::no_polygon(&others))).in_file(path));
     }
     let corners = shapes.polygons.iter().flatten().flatten().copied();
-    let coordinates = CoordinateSystem::of_corners(CoordinateSystem::beside(path).as_ref(), corners);
+    let coordinates = CoordinateSystem::from_corners(CoordinateSystem::beside(path).as_ref(), corners);
     let named = |polygon| NamedPolygon { polygon, name: String::new() };
     Ok(Outline { polygons: shapes.polygons.into_iter().map(named).collect(), coordinates })
 }
@@ -69,7 +69,7 @@ fn read_records(path: &Path, wanted: Option<Rect>, meter: &Meter) -> Result<Shap
     let shapes = geojson::read_metered(path, meter, |input| parse(input, wanted))?;
     let system = CoordinateSystem::beside(path);
     if wanted.is_some() {
-        let coordinates = CoordinateSystem::of_corners(system.as_ref(), shapes::places(&shapes));
+        let coordinates = CoordinateSystem::from_corners(system.as_ref(), shapes::places(&shapes));
         return Ok(ShapeFile { shapes, coordinates });
     }
     checked(shapes, system.as_ref()).map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))
@@ -86,7 +86,7 @@ pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> 
 
 fn checked(shapes: ShapeList, system: Option<&CoordinateSystem>) -> Result<ShapeFile, Flaw> {
     shapes::check(&shapes)?;
-    let coordinates = CoordinateSystem::of_corners(system, shapes::places(&shapes));
+    let coordinates = CoordinateSystem::from_corners(system, shapes::places(&shapes));
     Ok(ShapeFile { shapes, coordinates })
 }
 

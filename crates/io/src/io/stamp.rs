@@ -15,7 +15,7 @@ pub struct FileStamp {
 
 impl FileStamp {
     /// Returns the stamp of these bytes.
-    pub fn of(bytes: &[u8]) -> Self {
+    pub fn from_bytes(bytes: &[u8]) -> Self {
         Self { bytes: bytes.len() as u64, checksum: crc32fast::hash(bytes) }
     }
 
@@ -23,7 +23,7 @@ impl FileStamp {
     ///
     /// # Errors
     /// Fails with the errors of the file system, and when the work was cancelled.
-    pub fn of_file(path: &Path, meter: &Meter) -> io::Result<Option<Self>> {
+    pub fn from_file(path: &Path, meter: &Meter) -> io::Result<Option<Self>> {
         if !disk::is_file(path) {
             return Ok(None);
         }

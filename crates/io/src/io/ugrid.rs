@@ -13,7 +13,7 @@
 
 use std::io::{self, Write};
 
-use super::netcdf_writer::{AttributeValue, Attributes, Dataset, Kind, Variable, WriteRow};
+use super::netcdf_writer::{AttributeValue, Attributes, Dataset, VariableType, WriteRow, WrittenVariable};
 use super::triangle_pieces::TrianglePieces;
 use super::{FormatSpec, MeshData, Meter, TypicalSize};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
@@ -85,12 +85,19 @@ fn origin(data: &MeshData) -> Attributes {
 }
 
 /// Returns a variable without values, for its attributes.
-fn described<'a>(name: &str, attributes: Attributes) -> Variable<'a> {
+fn described<'a>(name: &str, attributes: Attributes) -> WrittenVariable<'a> {
     let write_row: WriteRow = Box::new(|out, _| out.write_all(&0_i32.to_be_bytes()));
-    Variable { name: name.into(), kind: Kind::Int, dimensions: Vec::new(), attributes, rows: 1, write_row }
+    WrittenVariable {
+        name: name.into(),
+        kind: VariableType::Int,
+        dimensions: Vec::new(),
+        attributes,
+        rows: 1,
+        write_row,
+    }
 }
 
-fn topology<'a>() -> Variable<'a> {
+fn topology<'a>() -> WrittenVariable<'a> {
     let attributes = vec![
         ("cf_role", "mesh_topology".into()),
         ("long_name", "Topology data of 2D mesh".into()),
@@ -111,7 +118,7 @@ fn system_name(data: &MeshData) -> &'static str {
     if data.provenance.unit() == LengthUnit::Degree { "wgs84" } else { "projected_coordinate_system" }
 }
 
-fn coordinate_system<'a>(data: &MeshData) -> Variable<'a> {
+fn coordinate_system<'a>(data: &MeshData) -> WrittenVariable<'a> {
     let attributes = match data.provenance.unit() {
         LengthUnit::Degree => vec![
             ("name", "WGS84".into()),
@@ -132,7 +139,7 @@ fn coordinate_system<'a>(data: &MeshData) -> Variable<'a> {
 }
 
 /// Returns the coordinates of the nodes along an axis, 0 for x and 1 for y.
-fn coordinate<'a>(mesh: &'a Extract, data: &MeshData, axis: usize) -> Variable<'a> {
+fn coordinate<'a>(mesh: &'a Extract, data: &MeshData, axis: usize) -> WrittenVariable<'a> {
     let (standard, unit) = match data.provenance.unit() {
         LengthUnit::Degree => [("longitude", "degrees_east"), ("latitude", "degrees_north")][axis],
         unit => {
@@ -161,7 +168,7 @@ fn ground_attributes() -> Attributes {
 }
 
 /// Returns h̄ and the quantities.
-fn node_values<'a>(data: &'a MeshData) -> impl Iterator<Item = Variable<'a>> {
+fn node_values<'a>(data: &'a MeshData) -> impl Iterator<Item = WrittenVariable<'a>> {
     data.node_values().enumerate().map(|(number, (name, values))| {
         let variable = if number == 0 { format!("mesh2d_{name}") } else { format!("mesh2d_quantity_{name}") };
         on_nodes(data, variable, vec![("long_name", name.into())], move |node| values[node])
@@ -174,7 +181,7 @@ fn on_nodes<'a>(
     name: String,
     mut attributes: Attributes,
     value: impl Fn(usize) -> f64 + Sync + 'a,
-) -> Variable<'a> {
+) -> WrittenVariable<'a> {
     attributes.extend([
         ("mesh", "mesh2d".into()),
         ("location", "node".into()),
@@ -189,9 +196,9 @@ fn real<'a>(
     attributes: Attributes,
     rows: usize,
     value: impl Fn(usize) -> f64 + Sync + 'a,
-) -> Variable<'a> {
+) -> WrittenVariable<'a> {
     let write_row: WriteRow = Box::new(move |out, row| out.write_all(&value(row).to_be_bytes()));
-    Variable { name, kind: Kind::Double, dimensions: vec![NODES], attributes, rows, write_row }
+    WrittenVariable { name, kind: VariableType::Double, dimensions: vec![NODES], attributes, rows, write_row }
 }
 
 /// Returns a variable of whole numbers whose rows are those of the triangles.
@@ -201,16 +208,16 @@ fn whole<'a>(
     attributes: Attributes,
     mesh: &Extract,
     write_row: WriteRow<'a>,
-) -> Variable<'a> {
+) -> WrittenVariable<'a> {
     let (name, rows) = (name.to_owned(), mesh.triangles().len());
-    Variable { name, kind: Kind::Int, dimensions, attributes, rows, write_row }
+    WrittenVariable { name, kind: VariableType::Int, dimensions, attributes, rows, write_row }
 }
 
 fn write_node(out: &mut Vec<u8>, node: usize) -> io::Result<()> {
     out.write_all(&(node as i32 + 1).to_be_bytes())
 }
 
-fn edge_nodes<'a>(mesh: &'a Extract) -> Variable<'a> {
+fn edge_nodes<'a>(mesh: &'a Extract) -> WrittenVariable<'a> {
     let attributes = vec![
         ("cf_role", "edge_node_connectivity".into()),
         ("long_name", "the two nodes of each edge".into()),
@@ -223,7 +230,7 @@ fn edge_nodes<'a>(mesh: &'a Extract) -> Variable<'a> {
     whole("mesh2d_edge_nodes", vec![EDGES, TWO], attributes, mesh, write_row)
 }
 
-fn face_nodes<'a>(mesh: &'a Extract) -> Variable<'a> {
+fn face_nodes<'a>(mesh: &'a Extract) -> WrittenVariable<'a> {
     let attributes = vec![
         ("cf_role", "face_node_connectivity".into()),
         ("long_name", "the nodes of each triangle, anticlockwise".into()),
@@ -237,7 +244,7 @@ fn face_nodes<'a>(mesh: &'a Extract) -> Variable<'a> {
     whole("mesh2d_face_nodes", vec![FACES, CORNERS], attributes, mesh, write_row)
 }
 
-fn boundary<'a>(mesh: &'a Extract, data: &MeshData, pieces: &'a TrianglePieces) -> Variable<'a> {
+fn boundary<'a>(mesh: &'a Extract, data: &MeshData, pieces: &'a TrianglePieces) -> WrittenVariable<'a> {
     let list = data.boundary.pieces().list();
     let names = data.boundary.present().map(|piece| one_word(&list[piece].name));
     let names: Vec<String> = std::iter::once("inside".to_owned()).chain(names).collect();
@@ -270,7 +277,7 @@ fn one_word(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "_-.+@".contains(c) { c } else { '_' }).collect()
 }
 
-fn levels<'a>(mesh: &'a Extract) -> Variable<'a> {
+fn levels<'a>(mesh: &'a Extract) -> WrittenVariable<'a> {
     let attributes = vec![
         ("long_name", "level of the triangle".into()),
         ("mesh", "mesh2d".into()),

@@ -38,17 +38,17 @@ pub enum TextValue {
 
 impl TextValue {
     /// Returns the tables of a text in TOML.
-    pub(super) fn of_toml(table: &DeTable) -> Self {
+    pub(super) fn from_toml(table: &DeTable) -> Self {
         let mut entries: Vec<_> = table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
         let entry = |(key, value): &(&toml::Spanned<_>, &toml::Spanned<DeValue>)| {
             let key: &std::borrow::Cow<str> = key.get_ref();
-            (key.to_string(), Self::of_toml_value(value.get_ref()))
+            (key.to_string(), Self::from_toml_value(value.get_ref()))
         };
         Self::Table(entries.iter().map(entry).collect())
     }
 
-    fn of_toml_value(value: &DeValue) -> Self {
+    fn from_toml_value(value: &DeValue) -> Self {
         match value {
             DeValue::String(text) => Self::Text(text.to_string()),
             DeValue::Integer(whole) => {
@@ -60,9 +60,9 @@ impl TextValue {
             DeValue::Boolean(value) => Self::Bool(*value),
             DeValue::Datetime(_) => Self::Date,
             DeValue::Array(list) => {
-                Self::List(list.iter().map(|entry| Self::of_toml_value(entry.get_ref())).collect())
+                Self::List(list.iter().map(|entry| Self::from_toml_value(entry.get_ref())).collect())
             }
-            DeValue::Table(table) => Self::of_toml(table),
+            DeValue::Table(table) => Self::from_toml(table),
         }
     }
 

@@ -17,7 +17,7 @@ pub struct ValueFacts {
 
 impl ValueFacts {
     /// Returns what attributes of the CF conventions say.
-    pub fn of_attributes(units: Option<&str>, positive: Option<&str>, standard_name: Option<&str>) -> Self {
+    pub fn from_attributes(units: Option<&str>, positive: Option<&str>, standard_name: Option<&str>) -> Self {
         let unit = ValueUnit::named(units.unwrap_or_default());
         let notes = unit.note().into_iter().collect();
         Self { positive: direction(positive, standard_name), unit, notes }
@@ -136,10 +136,10 @@ pub struct VerticalSystem {
 
 impl VerticalSystem {
     /// Returns what is known of a code of the EPSG register.
-    pub(super) fn of_epsg(code: u16) -> Self {
+    pub(super) fn from_epsg(code: u16) -> Self {
         let unit = VERTICAL_UNITS.iter().find(|(_, codes)| codes.contains(&code)).map(|&(unit, _)| unit);
         let positive = VERTICAL_DEPTHS.contains(&code).then_some(PositiveDepth::Down);
-        Self { unit: unit.map_or(ValueUnit::Unstated, ValueUnit::of_epsg), positive }
+        Self { unit: unit.map_or(ValueUnit::Unstated, ValueUnit::from_epsg), positive }
     }
 }
 
@@ -169,7 +169,7 @@ impl ValueUnit {
     }
 
     /// Returns the unit with a code of the EPSG register.
-    pub(super) fn of_epsg(code: u16) -> Self {
+    pub(super) fn from_epsg(code: u16) -> Self {
         let known = LENGTHS.iter().find(|(.., codes)| codes.contains(&code));
         known.map_or_else(|| Self::Other(format!("EPSG:{code}")), |&(unit, ..)| Self::Length(unit))
     }
@@ -244,10 +244,10 @@ mod tests {
             assert_eq!(ValueUnit::named(text), ValueUnit::Other(text.into()));
         }
         assert_eq!(["", "1", "-"].map(ValueUnit::named), [const { ValueUnit::Unstated }; 3]);
-        assert_eq!(ValueUnit::of_epsg(9003).metres(), ValueUnit::named("us-ft").metres());
-        assert_eq!(VerticalSystem::of_epsg(6360).unit.metres(), 1200.0 / 3937.0);
-        assert_eq!(VerticalSystem::of_epsg(5715).positive, Some(PositiveDepth::Down));
-        assert_eq!(VerticalSystem::of_epsg(5703).positive, None);
+        assert_eq!(ValueUnit::from_epsg(9003).metres(), ValueUnit::named("us-ft").metres());
+        assert_eq!(VerticalSystem::from_epsg(6360).unit.metres(), 1200.0 / 3937.0);
+        assert_eq!(VerticalSystem::from_epsg(5715).positive, Some(PositiveDepth::Down));
+        assert_eq!(VerticalSystem::from_epsg(5703).positive, None);
     }
 
     #[test]

@@ -14,12 +14,12 @@ const DEEPEST: u32 = 8;
 const FLAGS: [u32; 3] = [1 << 31, 1 << 30, 1 << 29];
 
 /// Bytes that are still to be read, in one order of bytes.
-pub(super) struct Bytes<'a> {
+pub(super) struct WkbBytes<'a> {
     rest: &'a [u8],
     is_little: bool,
 }
 
-impl<'a> Bytes<'a> {
+impl<'a> WkbBytes<'a> {
     pub(super) fn new(rest: &'a [u8], is_little: bool) -> Self {
         Self { rest, is_little }
     }
@@ -131,7 +131,7 @@ mod tests {
 
     fn read(bytes: &[u8]) -> Result<ShapeList, String> {
         let mut shapes = ShapeList::default();
-        Bytes::new(bytes, true).geometry(&mut shapes)?;
+        WkbBytes::new(bytes, true).geometry(&mut shapes)?;
         Ok(shapes)
     }
 

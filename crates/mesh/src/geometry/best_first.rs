@@ -1,7 +1,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The parts of a region that are left to search, the one with the lowest bound first.
+/// The parts of a region that are still to be searched, the one with the lowest bound first.
 ///
 /// Branch and bound looks for a least value: each part has a bound below which it has no value, and is
 /// divided when its turn comes. As the part with the lowest bound is always the next, no value of the

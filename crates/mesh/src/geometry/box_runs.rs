@@ -8,15 +8,17 @@ use super::box_tree::{meet, union};
 /// Items of a run, and runs of a longer one.
 const LENGTH: usize = 16;
 
-/// The boxes of runs of 16 items, of 16 such runs, and so on. It answers as a [`BoxTree`](super::BoxTree)
-/// does and takes a twentieth of its memory, as it stores neither the items nor their rectangles: they are
-/// asked for. It is fast where items with numbers that are close together are close together in the plane.
+/// The boxes of runs of 16 items, of 16 such runs, and so on. It is a bounding-volume hierarchy that gives
+/// the same answers as a [`BoxTree`](super::BoxTree) in a twentieth of the memory, as it stores neither the
+/// items nor their rectangles but asks for them. It is fast where items with similar numbers are close
+/// together in the plane.
 ///
 /// ```text
 /// level 1    |          box of all         |
 /// level 0    |  box   |  box   |  box   | b|    each over sixteen items
 /// items       0 ... 15 16 .. 31 32 .. 47 48     in the order of their numbers
 /// ```
+#[doc(alias = "BVH")]
 #[derive(Clone, Debug)]
 pub struct BoxRuns {
     count: usize,

@@ -1,4 +1,5 @@
-//! An index of rectangles: which of them meet a place, and which is nearest to a point.
+//! A bounding-volume hierarchy (BVH) of rectangles: which of them meet a place, and which is nearest to a
+//! point.
 
 use std::ops::{ControlFlow, Range};
 
@@ -9,14 +10,15 @@ use super::{Rect, z_order};
 /// Children of a node.
 const FANOUT: usize = 8;
 
-/// A packed tree of rectangles: items are sorted along a Z-order curve and joined in groups of eight, the
-/// groups again, and so on. No links are stored.
+/// A packed bounding-volume hierarchy: items are sorted along a Z-order curve and joined in groups of eight,
+/// these groups again, and so on. No links are stored.
 ///
 /// ```text
 /// level 1    |        box of all         |
 /// level 0    | box | box | box | box | bo|      each over eight items
 /// items       ||||| ||||| ||||| ||||| |||       along the curve
 /// ```
+#[doc(alias = "BVH")]
 #[derive(Clone, Debug)]
 pub struct BoxTree {
     /// The items along the curve.

@@ -64,7 +64,7 @@ pub enum GridError {
         /// The rectangle as given.
         bounds: Rect,
     },
-    /// A side is so long or so short that squares of lengths are no numbers.
+    /// A side is so long or so short that squares of lengths are not finite and positive.
     Size {
         /// Width and height of the domain.
         size: DVec2,
@@ -83,7 +83,7 @@ pub enum GridError {
         /// Most coarse triangles allowed.
         limit: usize,
     },
-    /// The domain is so narrow that cells of its width are too many along the other side.
+    /// The domain is so narrow that too many cells of its width would be needed along the other side.
     TooNarrow {
         /// Width and height of the domain.
         size: DVec2,
@@ -189,7 +189,7 @@ impl Lattice {
         let (fewest, triangles) = (triangles, 2.0 * cells[0] * cells[1]);
         if triangles > max_triangles as f64 || cells[0].max(cells[1]) > f64::from(1u32 << (LATTICE_BITS - 1))
         {
-            // A few more than the fewest come from rounding both sides to whole cells.
+            // Rounding both sides to whole cells adds a few cells to the minimum.
             return Err(if triangles < 4.0 * fewest {
                 GridError::TooManyCells { spacing, triangles, limit: max_triangles }
             } else {

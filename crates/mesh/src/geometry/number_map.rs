@@ -3,14 +3,14 @@
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// A map by numbers that are spread by a multiplication: no one chooses them to collide.
+/// A map whose keys are numbers, hashed by a multiplication: nobody chooses keys to make them collide.
 pub type NumberMap<K, V> = HashMap<K, V, BuildHasherDefault<NumberHasher>>;
 
 /// A set of such numbers.
 pub type NumberSet<K> = HashSet<K, BuildHasherDefault<NumberHasher>>;
 
-/// Hashes numbers of up to 64 bits, also several, in a few instructions: the hasher of std takes ten times as
-/// many, and each table is so much more code.
+/// Hashes one or more numbers of up to 64 bits in a few instructions: the hasher of std takes ten times as
+/// many, and adds code to each table.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NumberHasher(u64);
 

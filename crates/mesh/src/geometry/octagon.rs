@@ -90,7 +90,7 @@ impl Octagon {
         [left, right]
     }
 
-    /// Returns the extents along x + y and x − y, each from the least to the greatest number.
+    /// Returns the extents along x + y and x − y, each as [minimum, maximum].
     #[inline]
     pub fn diagonals(&self) -> [[i64; 2]; 2] {
         [[self.sum.low, self.sum.high], [self.difference.low, self.difference.high]]

@@ -10,7 +10,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// Shortest side of a proper rectangle: areas and ratios of lengths are finite, and not zero.
+    /// Shortest side of a proper rectangle, so that areas and ratios of lengths are finite and not zero.
     pub const SHORTEST_SIDE: f64 = 1e-120;
     /// Longest side of a proper rectangle, and its farthest coordinate.
     pub const LONGEST_SIDE: f64 = 1e150;

@@ -1,4 +1,5 @@
-//! The method of the report: a mesh of right-angled isosceles triangles, refined by local bisection.
+//! The method of the report: a mesh of right-angled isosceles triangles, refined by local bisection. In other
+//! words, adaptive mesh refinement by newest vertex bisection.
 //!
 //! Nothing here knows a field, a file or a window. What to refine and where the domain lies come in as
 //! closures.

@@ -1,5 +1,5 @@
-//! Decimal numbers as text. The parser of std brings 10 kB of tables along, and the module for JavaScript is
-//! sent to whoever opens a page. This one is short, has the same values, and is fast for numbers of up to 15
+//! Decimal numbers as text. The parser of std adds 10 kB of tables, and every visitor of a page downloads the
+//! module for JavaScript. This parser is short, returns the same values, and is fast for numbers of up to 15
 //! digits.
 
 use std::cmp::Ordering;
@@ -14,7 +14,7 @@ const PRECISION: i32 = 53;
 const LEAST_EXPONENT: i32 = -1022;
 
 /// Returns the f64 that is nearest to a decimal number such as `-12.5e-3`, the even one of two, as the parser
-/// of std does. Without a digit, or with anything else in it, there is none.
+/// of std does. Returns `None` for a text without a digit or with anything else in it.
 pub fn parse(text: &str) -> Option<f64> {
     let (is_negative, text) = match text.as_bytes().first()? {
         b'-' => (true, &text[1..]),

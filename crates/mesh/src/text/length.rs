@@ -28,7 +28,7 @@ impl FromStr for Length {
 }
 
 impl Length {
-    /// Returns the length that a text is, if it has a unit: formulas are none.
+    /// Returns the length that a text says, if it has a unit; a formula has none.
     pub fn with_unit(text: &str) -> Option<Self> {
         text.parse().ok().filter(Self::has_unit)
     }

@@ -342,9 +342,9 @@ fn a_forecast_is_what_the_update_then_does() {
             let before = mesh.raw_triangle_count();
             let mut forecast = match (random.u8(..3), memory.take()) {
                 (0, _) => Forecast::new(hull(&areas_of(&changes)), &Limits::default()),
-                (1, Some(memory)) => Forecast::of_changes_in(memory, changes.clone(), &Limits::default())
+                (1, Some(memory)) => Forecast::for_changes_in(memory, changes.clone(), &Limits::default())
                     .expect("there is an area"),
-                _ => Forecast::of_changes(changes.clone(), &Limits::default()).expect("there is an area"),
+                _ => Forecast::for_changes(changes.clone(), &Limits::default()).expect("there is an area"),
             };
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);

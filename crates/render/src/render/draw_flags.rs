@@ -31,7 +31,7 @@ pub(super) struct DrawFlags {
 impl DrawFlags {
     /// Returns flags for `count` triangles, of which `pieces` replace some. Triangles outside the domain are
     /// not marked.
-    pub(super) fn of_pieces(pieces: &PatchPieces, count: usize) -> Self {
+    pub(super) fn from_pieces(pieces: &PatchPieces, count: usize) -> Self {
         let mut flags = Self::default();
         flags.resize(count);
         pieces.replacements().for_each(|(id, range)| flags.replace(id, !range.is_empty()));

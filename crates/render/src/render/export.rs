@@ -46,7 +46,7 @@ impl ExportFormat {
     ///
     /// # Errors
     /// Fails when the ending is none of [`Self::endings`].
-    pub fn of(path: &Path) -> Result<Self, UnknownEnding> {
+    pub fn from_path(path: &Path) -> Result<Self, UnknownEnding> {
         let found = match ending_of(path).as_str() {
             "svg" => Some(Self::Svg),
             "png" => Some(Self::Png),
@@ -67,9 +67,9 @@ impl ExportFormat {
     pub fn fits(self, path: &Path) -> bool {
         let own = match self {
             Self::Mesh(format) => format.may_end_in(&ending_of(path)),
-            Self::Svg | Self::Png => Self::of(path) == Ok(self),
+            Self::Svg | Self::Png => Self::from_path(path) == Ok(self),
         };
-        own || Self::of(path).is_err()
+        own || Self::from_path(path).is_err()
     }
 
     /// Returns the binary form of this format, or `None` if it has no separate one.
@@ -305,7 +305,7 @@ pub struct SpaceLook {
 
 /// Space around a picture in space, as a share of its shorter side.
 const SPACE_MARGIN: f64 = 0.04;
-/// The least and the largest height of a picture in space, as shares of its width.
+/// The minimum and the maximum height of a picture in space, as shares of its width.
 const SPACE_PROPORTIONS: [f64; 2] = [0.25, 2.0];
 
 impl SpaceLook {

@@ -54,7 +54,7 @@ impl PathFormat {
     ///
     /// # Errors
     /// Fails when the ending is none of [`Self::ENDINGS`].
-    pub fn of(path: &Path) -> Result<Self, UnknownPathEnding> {
+    pub fn from_path(path: &Path) -> Result<Self, UnknownPathEnding> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match ending.as_str() {
             "geojson" | "json" => Ok(Self::GeoJson),

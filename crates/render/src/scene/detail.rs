@@ -2,7 +2,7 @@
 //! from.
 //!
 //! A picture takes the colour of each pixel from one triangle, the one at the centre of the pixel. Where
-//! triangles are smaller than pixels, the others are drawn in vain. So triangles finer than a *detail level*
+//! triangles are smaller than pixels, drawing the others is wasted. So triangles finer than a *detail level*
 //! are merged into their ancestors of that level, each of which has the colour of one triangle within it, its
 //! *representative*. A picture with these is a picture of the same samples, each taken within the length of
 //! the ancestor's bisection edge from where it would be taken otherwise.
@@ -108,7 +108,7 @@ impl InnerPoint {
 }
 
 /// A point in a square cell of the grid.
-struct Place {
+struct CellPoint {
     cell: [u32; 2],
     /// From the lower left corner of the cell, in quarters of a lattice step.
     at: [u32; 2],
@@ -116,7 +116,7 @@ struct Place {
     side: u32,
 }
 
-impl Place {
+impl CellPoint {
     /// Returns the place of a point in the cell of triangles of `level`.
     #[inline]
     fn of(halvings: u32, level: u32, inner: InnerPoint) -> Self {
@@ -144,7 +144,7 @@ impl Place {
 fn is_chosen(halvings: u32, level: u32, inner: InnerPoint) -> bool {
     // The halves of a half are quarters of the same cell. The halves of a quarter are on both sides of the
     // middle of the cell's side.
-    let place = Place::of(halvings, level - 1, inner);
+    let place = CellPoint::of(halvings, level - 1, inner);
     let (right, low) = (place.is_right(), place.is_low());
     let is_along_x = right == low;
     let (half, parent) = if level % 2 == 1 {
@@ -169,7 +169,7 @@ fn coin([x, y]: [u32; 2], number: u32) -> bool {
 /// Returns the corners of the triangle of `level` around a point.
 #[inline]
 fn triangle_around(halvings: u32, level: u32, inner: InnerPoint) -> [LatticePoint; 3] {
-    let place = Place::of(halvings, level, inner);
+    let place = CellPoint::of(halvings, level, inner);
     let side = place.side / 4;
     let corner = |x: u32, y: u32| {
         let [column, row] = place.cell;
@@ -232,7 +232,7 @@ mod tests {
                     continue;
                 }
                 let inner = InnerPoint::of(triangle, mesh.raw_nodes());
-                let tree = TreeTriangle::of(&mesh, TriangleId::from_index(index));
+                let tree = TreeTriangle::from_mesh(&mesh, TriangleId::from_index(index));
                 let ancestor = tree.ancestors(mesh.lattice())[level as usize];
                 *ancestors.entry(key(ancestor.corners())).or_insert(0) += 1;
                 let merged = detail.merged(triangle.level(), inner);

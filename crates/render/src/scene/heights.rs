@@ -50,7 +50,7 @@ impl HeightScale {
         steps.filter(|steps| !steps.is_nan()).map_or(NO_HEIGHT, |steps| steps.clamp(0.0, HIGHEST) as u32)
     }
 
-    /// Returns the height of so many steps.
+    /// Returns the height of `steps` steps.
     pub fn height(&self, steps: f64) -> f64 {
         self.lowest + self.step * steps
     }

@@ -86,13 +86,13 @@ impl Style {
         self
     }
 
-    /// Returns the appearance of a mesh of so many triangles on a screen: in a large one, triangles smaller
+    /// Returns the appearance of a mesh of `count` triangles on a screen: in a large one, triangles smaller
     /// than a pixel are merged. To be called before [`Self::at_density`].
     pub fn for_triangles(self, count: usize) -> Self {
         Self { merge_below_px: if Self::merges(count) { MERGE_BELOW_PX } else { 0.0 }, ..self }
     }
 
-    /// Returns whether a mesh of so many triangles is large in the sense of [`Self::for_triangles`].
+    /// Returns whether a mesh of `count` triangles is large in the sense of [`Self::for_triangles`].
     pub fn merges(count: usize) -> bool {
         count >= MERGED_FROM
     }

@@ -57,7 +57,7 @@ impl Sample {
         let targets = nodes().map(target).collect();
         let height =
             NodeValues { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
-        let (boundary, parts) = (MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers());
+        let (boundary, parts) = (MeshBoundary::from_mesh(&mesh.extract()), mesh.extract().part_numbers());
         let provenance = Provenance::new(MeshSource::Command(COMMAND), mesh.fingerprint(), "x, y");
         let surface = nodes().map(|p| libm::sin(3.0 * p.x) - 0.1 * p.y).collect();
         let (quantities, heights) = (vec![height], Some(surface));

@@ -53,7 +53,7 @@ struct Details(MeshBoundary, Vec<u32>, Provenance);
 
 impl Details {
     fn of(mesh: &Mesh) -> Self {
-        let (boundary, parts) = (MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers());
+        let (boundary, parts) = (MeshBoundary::from_mesh(&mesh.extract()), mesh.extract().part_numbers());
         Self(boundary, parts, Provenance::default())
     }
 

@@ -326,7 +326,7 @@ fn frame() -> Case {
     let limits = Limits::default();
     let lattice = Lattice::covering(Rect::UNIT, 0.25, limits.max_triangles).unwrap();
     let mesh: &'static Mesh = Box::leak(Box::new(Mesh::coarse_grid(&lattice, |_| true, &limits).unwrap()));
-    let boundary = MeshBoundary::of_mesh(&mesh.extract());
+    let boundary = MeshBoundary::from_mesh(&mesh.extract());
     let mut case = Case::of(mesh.extract(), boundary, mesh);
     case.quantities.clear();
     case
@@ -352,7 +352,7 @@ fn a_boundary_that_touches_itself_is_refused_with_the_place() {
     // Two squares that share the corner (2, 2).
     let inside = |p: DVec2| p.max_element() <= 2.0 || p.min_element() >= 2.0;
     let mesh: &'static Mesh = Box::leak(Box::new(Mesh::coarse_grid(&lattice, inside, &limits).unwrap()));
-    let touches = MeshBoundary::of_mesh(&mesh.extract());
+    let touches = MeshBoundary::from_mesh(&mesh.extract());
     let case = Case::of(mesh.extract(), touches, mesh);
     let place = "at x = 2, y = 2 the boundary touches itself in a node; have such nodes removed";
     for (name, error) in [

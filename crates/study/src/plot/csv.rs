@@ -3,7 +3,7 @@
 //! The first column is x, and there is a column for each series, which is empty where the series has no
 //! point. If the points of some series do not run from left to right, there is a row for each point instead,
 //! with the columns `series`, x and y. In the first form, a series with error bars has two more columns: the
-//! least and the greatest value.
+//! minimum and the maximum.
 
 use std::io::{self, Write};
 

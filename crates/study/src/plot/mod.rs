@@ -54,7 +54,7 @@ pub struct Series {
     pub mark: Mark,
     /// `[x, y]` of each point, in the order in which a line joins them.
     pub points: Vec<[f64; 2]>,
-    /// The least and the greatest y that each point stands for, drawn as an error bar; empty without any.
+    /// The minimum and the maximum y that each point stands for, drawn as an error bar; empty without any.
     pub spans: Vec<[f64; 2]>,
 }
 

@@ -35,7 +35,7 @@ const PATTERNS: &str = "<defs>\
 /// # Errors
 /// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, plot: &Plot) -> io::Result<()> {
-    let page = Page::of(plot);
+    let page = PlotPage::of(plot);
     writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
@@ -59,7 +59,7 @@ pub fn write(out: &mut impl Write, plot: &Plot) -> io::Result<()> {
 }
 
 /// The layout of the page.
-struct Page {
+struct PlotPage {
     left: f64,
     right: f64,
     top: f64,
@@ -68,7 +68,7 @@ struct Page {
     ticks: [Vec<Tick>; 2],
 }
 
-impl Page {
+impl PlotPage {
     fn of(plot: &Plot) -> Self {
         let ranges = plot.ranges();
         let ticks = [0, 1].map(|axis| ranges[axis].ticks(TICKS[axis]));
@@ -94,8 +94,8 @@ impl Page {
     }
 }
 
-fn write_axes(out: &mut impl Write, plot: &Plot, page: &Page) -> io::Result<()> {
-    let Page { left, right, top, bottom, .. } = *page;
+fn write_axes(out: &mut impl Write, plot: &Plot, page: &PlotPage) -> io::Result<()> {
+    let PlotPage { left, right, top, bottom, .. } = *page;
     let [across, up] = &page.ticks;
     writeln!(out, "<g id=\"grid\" stroke=\"#ddd\">")?;
     for y in up.iter().map(|tick| page.y(tick.position)) {
@@ -131,7 +131,7 @@ fn write_axes(out: &mut impl Write, plot: &Plot, page: &Page) -> io::Result<()> 
 }
 
 /// The name of each series after a sample of it, in one row above the plot.
-fn write_legend(out: &mut impl Write, plot: &Plot, page: &Page) -> io::Result<()> {
+fn write_legend(out: &mut impl Write, plot: &Plot, page: &PlotPage) -> io::Result<()> {
     if plot.series.len() < 2 {
         return Ok(());
     }
@@ -162,7 +162,7 @@ fn write_legend(out: &mut impl Write, plot: &Plot, page: &Page) -> io::Result<()
     writeln!(out, "</g>")
 }
 
-fn write_series(out: &mut impl Write, plot: &Plot, page: &Page, number: usize) -> io::Result<()> {
+fn write_series(out: &mut impl Write, plot: &Plot, page: &PlotPage, number: usize) -> io::Result<()> {
     let (series, style) = (&plot.series[number], style(plot, number));
     writeln!(out, "<g class=\"series\" {style}>\n<title>{}</title>", xml_text(&series.name))?;
     let points = series.points.iter().copied().filter(|point| plot.shows(*point));
@@ -198,8 +198,8 @@ fn write_series(out: &mut impl Write, plot: &Plot, page: &Page, number: usize) -
     writeln!(out, "</g>")
 }
 
-/// A line from the least to the greatest value of each point, with a short stroke at both ends.
-fn write_error_bars(out: &mut impl Write, plot: &Plot, page: &Page, series: &Series) -> io::Result<()> {
+/// A line from the minimum to the maximum of each point, with a short stroke at both ends.
+fn write_error_bars(out: &mut impl Write, plot: &Plot, page: &PlotPage, series: &Series) -> io::Result<()> {
     for ends in series.error_bars() {
         let [Some([x, low]), Some([_, high])] = ends.map(|end| page.place(plot, end)) else { continue };
         let (left, width) = (x - TICK, 2.0 * TICK);
@@ -300,7 +300,7 @@ mod tests {
         }
         // One series alone needs no legend.
         let one = Plot { series: plot.series[..1].to_vec(), ..plot.clone() };
-        assert_eq!(Page::of(&plot).top - Page::of(&one).top, 1.5 * LINE);
+        assert_eq!(PlotPage::of(&plot).top - PlotPage::of(&one).top, 1.5 * LINE);
     }
 
     #[test]

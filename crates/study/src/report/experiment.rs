@@ -92,7 +92,7 @@ impl ExperimentMesh {
         self.span()[0]
     }
 
-    /// Returns the least and the greatest time of all runs, in seconds.
+    /// Returns the minimum and the maximum time of all runs, in seconds.
     pub fn span(&self) -> [f64; 2] {
         span(&self.runs)
     }

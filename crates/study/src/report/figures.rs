@@ -11,7 +11,7 @@ use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::layers::{Layer, LayerKind};
 use crate::mesh::Mesh;
-use crate::steps::{NamedPlace, Names, NeighbourCase, ReportRow, Step, StepAction, StepPlayer};
+use crate::steps::{NamedPlace, Names, NeighbourCase, RecordedStep, ReportRow, StepAction, StepPlayer};
 use crate::text::{Grouped, fixed, significant};
 
 /// A figure of the report, or its experiment.
@@ -143,7 +143,7 @@ impl ReportFigure {
     }
 
     /// Returns whether a step is the one that the figure shows. Figure 2 shows what is before all steps.
-    pub fn shows(self, step: &Step) -> bool {
+    pub fn shows(self, step: &RecordedStep) -> bool {
         match self {
             Self::Descendants => (step.k, step.orientation) == (1, 0) && step.action == StepAction::Bisect,
             Self::Neighbours => step.action == StepAction::UpdateNeighbours(NeighbourCase::Pair1),
@@ -249,7 +249,7 @@ fn walk(mesh: &Mesh, point: DVec2) -> Vec<Comparison> {
 }
 
 /// Eqs. (17) and (18): vertices and orientations of the halves.
-fn descendants(player: &StepPlayer, step: &Step) -> Vec<Comparison> {
+fn descendants(player: &StepPlayer, step: &RecordedStep) -> Vec<Comparison> {
     let changes = player.changes();
     let kept = changes.iter().find(|change| change.number == step.triangle);
     let (Some(kept), Some(d)) = (kept, step.new_node) else { return Vec::new() };
@@ -270,7 +270,7 @@ fn descendants(player: &StepPlayer, step: &Step) -> Vec<Comparison> {
 }
 
 /// Figure 4 and Algorithm 9: neighbours before and after.
-fn neighbours(player: &StepPlayer, step: &Step) -> Vec<Comparison> {
+fn neighbours(player: &StepPlayer, step: &RecordedStep) -> Vec<Comparison> {
     let Some(across) = step.across else { return Vec::new() };
     let before = |number: u32| {
         let change = player.changes().iter().find(|change| change.number == number)?;
@@ -386,7 +386,7 @@ mod tests {
         while recorder.advance(|element| element.triangle.level() < 9, 1000).unwrap() == Progress::More {}
         let recording = recorder.finish();
         let pairs = |wanted: [u8; 3]| {
-            let case = |step: &&Step| {
+            let case = |step: &&RecordedStep| {
                 step.action == StepAction::Bisect
                     && step.orientation_across.map(|across| [step.k, step.orientation, across])
                         == Some(wanted)

@@ -1,4 +1,4 @@
-//! The figures of the report and its experiment, made again, with its numbers beside ours.
+//! The figures and the experiment of the report, reproduced, with its numbers beside ours.
 
 mod power_law;
 mod times;

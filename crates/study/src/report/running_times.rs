@@ -28,7 +28,7 @@ impl PowerLaw {
 
 impl Experiment {
     /// Figure 5: time over triangles with the power law of best fit, on logarithmic axes, on which it is a
-    /// straight line. Error bars go from the least to the greatest time of all runs.
+    /// straight line. Error bars go from the minimum to the maximum time of all runs.
     pub fn figure_5(&self) -> Plot {
         let points = self.scaled(ExperimentMesh::seconds);
         let greatest = self.scaled(|mesh| mesh.span()[1]);

@@ -35,8 +35,8 @@ impl RunTime {
     }
 }
 
-/// Returns the least and the greatest time of some runs. A load only adds to a time, so that the least is the
-/// best estimate. [`f64::INFINITY`] and 0 without runs.
+/// Returns the minimum and the maximum time of some runs. A load only adds to a time, so that the minimum is
+/// the best estimate. [`f64::INFINITY`] and 0 without runs.
 pub(super) fn span(runs: &[RunTime]) -> [f64; 2] {
     let seconds = runs.iter().map(|run| run.seconds());
     seconds.fold([f64::INFINITY, 0.0], |[least, greatest], time| [least.min(time), greatest.max(time)])

@@ -25,5 +25,5 @@ pub use parts::{Marked, StepPart};
 pub use player::StepPlayer;
 pub use pseudo_code::{Algorithm, NeighbourCase};
 pub use recorder::StepRecorder;
-pub use recording::{BOUNDARY, Recording, ReportRow, RowChange, Step, StepAction};
+pub use recording::{BOUNDARY, RecordedStep, Recording, ReportRow, RowChange, StepAction};
 pub use stages::{StageChange, StepStage, StepTriangle};

@@ -1,7 +1,7 @@
 //! The letters by which the lines of an algorithm and the panel name triangles and nodes, at a step.
 
 use super::player::StepPlayer;
-use super::recording::{BOUNDARY, ReportRow, Step, StepAction};
+use super::recording::{BOUNDARY, RecordedStep, ReportRow, StepAction};
 use crate::text::fixed;
 
 /// What has a name.
@@ -91,7 +91,12 @@ impl StepPlayer {
     }
 
     /// Names the new halves, and what `of_row` names in the rows of t_i and t_b before the step.
-    fn name_halves(&self, step: &Step, names: &mut Names, of_row: impl Fn(&mut Names, &ReportRow, bool)) {
+    fn name_halves(
+        &self,
+        step: &RecordedStep,
+        names: &mut Names,
+        of_row: impl Fn(&mut Names, &ReportRow, bool),
+    ) {
         let last = self.rows().len() as u32;
         match step.across {
             Some(_) => {

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::names::NamedPlace;
-use super::recording::{Recording, ReportRow, RowChange, Step, StepAction};
+use super::recording::{RecordedStep, Recording, ReportRow, RowChange, StepAction};
 use super::stages::{StepStage, StepTriangle};
 use crate::geometry::LatticePoint;
 
-/// 𝒯, 𝒩 and S_b at a step of a recording. Going back restores the very same arrays.
+/// 𝒯, 𝒩 and S_b at a step of a recording. Going back restores exactly the same arrays.
 #[derive(Clone, Debug)]
 pub struct StepPlayer {
     recording: Arc<Recording>,
@@ -46,7 +46,7 @@ impl StepPlayer {
     }
 
     /// Returns the step that was done last.
-    pub fn step(&self) -> Option<&Step> {
+    pub fn step(&self) -> Option<&RecordedStep> {
         self.position.checked_sub(1).map(|last| &self.recording.steps[last])
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::pseudo_code::NeighbourCase;
-use super::recording::{Recording, ReportRow, RowChange, Step, StepAction, report_row};
+use super::recording::{RecordedStep, Recording, ReportRow, RowChange, StepAction, report_row};
 use super::stages::StepStage;
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Answer, Cleaning, Element, Limits, Mesh, Orientation, Progress, RefineError, TriangleId};
@@ -32,7 +32,7 @@ pub struct StepRecorder {
     reopened: BTreeSet<usize>,
     nodes_before: usize,
     coarse_rows: Vec<ReportRow>,
-    steps: Vec<Step>,
+    steps: Vec<RecordedStep>,
     changes: Vec<RowChange>,
     is_cut_short: bool,
 }
@@ -62,7 +62,7 @@ impl StepRecorder {
         self.mesh.raw_triangle_count()
     }
 
-    /// Goes on until all is done or until `visits` triangles were asked about. `exceeds` is as for
+    /// Continues until done or until `visits` triangles were asked about. `exceeds` is as for
     /// [`Refiner::advance`](crate::mesh::Refiner::advance).
     ///
     /// # Errors
@@ -144,7 +144,7 @@ impl StepRecorder {
     fn end(&mut self, is_cut_short: bool) -> Progress {
         let is_first_end = self.steps.last().is_none_or(|step| step.action != StepAction::Finish);
         if !is_cut_short && is_first_end {
-            self.steps.push(Step::of_all(StepAction::Finish, self.changes.len()));
+            self.steps.push(RecordedStep::of_all(StepAction::Finish, self.changes.len()));
         }
         self.is_cut_short = is_cut_short;
         Progress::Done
@@ -192,7 +192,7 @@ impl StepRecorder {
     /// those of the parents and of the triangles around them, before both steps.
     fn note_changes(
         &mut self,
-        update: Step,
+        update: RecordedStep,
         (parents, around): (Vec<KnownRow>, Vec<KnownRow>),
         first_new: usize,
     ) {
@@ -211,7 +211,7 @@ impl StepRecorder {
                 linked.push(RowChange { number, before: Some(halfway), after });
             }
         }
-        self.steps.push(Step { first_change: self.changes.len() as u32, ..update });
+        self.steps.push(RecordedStep { first_change: self.changes.len() as u32, ..update });
         self.changes.append(&mut linked);
     }
 
@@ -240,9 +240,9 @@ impl StepRecorder {
         self.steps.push(step);
     }
 
-    fn described(&self, action: StepAction, id: TriangleId, visited: TriangleId) -> Step {
+    fn described(&self, action: StepAction, id: TriangleId, visited: TriangleId) -> RecordedStep {
         let (triangle, across) = (self.mesh.triangle(id), self.across(id));
-        Step {
+        RecordedStep {
             action,
             triangle: id.index() as u32 + 1,
             visited: visited.index() as u32 + 1,

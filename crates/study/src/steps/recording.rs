@@ -60,7 +60,7 @@ pub enum StepAction {
 
 /// A step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step {
+pub struct RecordedStep {
     /// The action of the step.
     pub action: StepAction,
     /// Number i of the triangle that it is about; 0 at the end.
@@ -83,7 +83,7 @@ pub struct Step {
     pub(super) first_change: u32,
 }
 
-impl Step {
+impl RecordedStep {
     /// Returns a step that is about no triangle of its own.
     pub(super) fn of_all(action: StepAction, first_change: usize) -> Self {
         Self {
@@ -192,7 +192,7 @@ pub struct Recording {
     pub coarse_rows: Vec<ReportRow>,
     /// Whether the run was stopped because the mesh became too large.
     pub is_cut_short: bool,
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<RecordedStep>,
     pub(super) changes: Vec<RowChange>,
     /// What follows the refinement; the last steps, one for each.
     pub(super) stages: Vec<StepStage>,
@@ -200,7 +200,7 @@ pub struct Recording {
 
 impl Recording {
     /// Returns the steps, in order.
-    pub fn steps(&self) -> &[Step] {
+    pub fn steps(&self) -> &[RecordedStep] {
         &self.steps
     }
 
@@ -211,7 +211,8 @@ impl Recording {
 
     /// Adds what follows the refinement.
     pub(super) fn with_stages(mut self, stages: Vec<StepStage>) -> Self {
-        let step = |stage: &StepStage| Step::of_all(StepAction::Derive(stage.change), self.changes.len());
+        let step =
+            |stage: &StepStage| RecordedStep::of_all(StepAction::Derive(stage.change), self.changes.len());
         self.steps.extend(stages.iter().map(step));
         self.stages = stages;
         self

@@ -12,7 +12,7 @@ const WIDTH: f64 = 1200.0;
 const MARGIN: f64 = 30.0;
 /// Height of a line of the caption.
 const LINE: f64 = 30.0;
-/// Size of the letters of a caption, and the least and most of a number.
+/// Size of the letters of a caption, and the minimum and the maximum size of a number.
 const LETTERS: f64 = 20.0;
 const NUMBERS: [f64; 2] = [6.0, 20.0];
 /// Size of the letters of a name, and the mean width of one.
@@ -45,7 +45,7 @@ pub fn numbered(path: &Path, position: usize, last: usize) -> PathBuf {
 /// # Errors
 /// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, player: &StepPlayer, colors: &StepColors<'_>) -> io::Result<()> {
-    let page = Page::of(player);
+    let page = StepPage::of(player);
     let caption = caption(player);
     let height = page.height + MARGIN + LINE * (caption.len() as f64 + 0.5);
     writeln!(
@@ -100,7 +100,7 @@ fn caption(player: &StepPlayer) -> Vec<String> {
 fn write_triangles(
     out: &mut impl Write,
     player: &StepPlayer,
-    page: &Page,
+    page: &StepPage,
     colors: &StepColors<'_>,
 ) -> io::Result<()> {
     writeln!(out, "<g id=\"triangles\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-width=\"1\">")?;
@@ -125,7 +125,7 @@ fn write_part(out: &mut impl Write, corners: &[[f64; 2]; 3], color: [u8; 3]) -> 
 }
 
 /// A line from the former place of each node that moved to the present one.
-fn write_moves(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Result<()> {
+fn write_moves(out: &mut impl Write, player: &StepPlayer, page: &StepPage) -> io::Result<()> {
     writeln!(out, "<g id=\"moves\" stroke=\"#fff\" stroke-width=\"1.5\" fill=\"#fff\">")?;
     for [from, to] in player.moves() {
         let ([ax, ay], [bx, by]) = (page.place(from), page.place(to));
@@ -137,7 +137,7 @@ fn write_moves(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Re
     writeln!(out, "</g>")
 }
 
-fn write_nodes(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Result<()> {
+fn write_nodes(out: &mut impl Write, player: &StepPlayer, page: &StepPage) -> io::Result<()> {
     let mut rooms = vec![f64::INFINITY; player.nodes().len()];
     for triangle in player.triangles() {
         let room = shortest_edge(&page.corners(triangle.corners(player.nodes())));
@@ -178,7 +178,7 @@ fn write_nodes(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Re
 fn write_numbers(
     out: &mut impl Write,
     player: &StepPlayer,
-    page: &Page,
+    page: &StepPage,
     marked: &[Marked],
     colors: &StepColors<'_>,
 ) -> io::Result<()> {
@@ -210,7 +210,7 @@ fn write_numbers(
 fn write_names(
     out: &mut impl Write,
     player: &StepPlayer,
-    page: &Page,
+    page: &StepPage,
     marked: &[Marked],
     colors: &StepColors<'_>,
 ) -> io::Result<()> {
@@ -268,12 +268,12 @@ fn shortest_edge(corners: &[[f64; 2]; 3]) -> f64 {
 }
 
 /// The position of the lattice on the page.
-struct Page {
+struct StepPage {
     scale: [f64; 2],
     height: f64,
 }
 
-impl Page {
+impl StepPage {
     fn of(player: &StepPlayer) -> Self {
         let lattice = &player.recording().lattice;
         let size = lattice.bounds().size();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use egui::{Context, Id};
 
 /// The keys of entries, by id; entries without a key are missing.
-type Keys = Arc<BTreeMap<String, String>>;
+type KeysByEntry = Arc<BTreeMap<String, String>>;
 
 fn id() -> Id {
     Id::unique("keys of entries")
@@ -15,12 +15,12 @@ fn id() -> Id {
 
 /// Says which keys entries have, from now on.
 pub fn publish(ctx: &Context, keys: BTreeMap<String, String>) {
-    ctx.data_mut(|data| data.insert_temp::<Keys>(id(), Arc::new(keys)));
+    ctx.data_mut(|data| data.insert_temp::<KeysByEntry>(id(), Arc::new(keys)));
 }
 
 /// Returns the key of an entry, by its id.
 pub(super) fn key_of(ctx: &Context, entry: &str) -> Option<String> {
-    ctx.data(|data| data.get_temp::<Keys>(id())).and_then(|keys| keys.get(entry).cloned())
+    ctx.data(|data| data.get_temp::<KeysByEntry>(id())).and_then(|keys| keys.get(entry).cloned())
 }
 
 /// Replaces entries in braces by their keys: `Removes it[; {delete} does so too].` What is in brackets is

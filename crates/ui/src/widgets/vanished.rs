@@ -12,13 +12,13 @@ const PAUSE: f64 = 0.5;
 /// on *Cancel* when the work ends must not paint, nor press what moved there.
 #[derive(Default)]
 pub struct VanishedButtons {
-    buttons: HashMap<Id, Place>,
+    buttons: HashMap<Id, VanishingButton>,
     /// The buttons of the mouse whose press was dropped and whose release is still to come.
     dropped: Vec<PointerButton>,
 }
 
 /// The place of a button that comes and goes.
-struct Place {
+struct VanishingButton {
     rect: Rect,
     /// Whether the button was shown in this pass.
     is_shown: bool,
@@ -28,7 +28,7 @@ struct Place {
 
 impl VanishedButtons {
     fn covers(&self, at: Pos2, now: f64) -> bool {
-        let covers = |place: &Place| {
+        let covers = |place: &VanishingButton| {
             place.rect.contains(at) && place.gone_at.is_some_and(|gone_at| now < gone_at + PAUSE)
         };
         self.buttons.values().any(covers)
@@ -79,7 +79,7 @@ impl Plugin for VanishedButtons {
 /// second.
 pub(super) fn guard(response: &Response) {
     response.ctx.with_plugin::<VanishedButtons, _>(|vanished| {
-        let place = Place { rect: response.rect, is_shown: true, gone_at: None };
+        let place = VanishingButton { rect: response.rect, is_shown: true, gone_at: None };
         vanished.buttons.insert(response.id, place);
     });
 }

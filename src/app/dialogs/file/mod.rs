@@ -181,7 +181,7 @@ impl FileDialog {
 
     /// The format follows the ending of the text.
     fn follow_ending(&mut self) {
-        if let Ok(format) = ExportFormat::of(Path::new(self.text.trim())) {
+        if let Ok(format) = ExportFormat::from_path(Path::new(self.text.trim())) {
             self.format = format;
         }
     }
@@ -189,7 +189,8 @@ impl FileDialog {
     /// The ending of the text follows the format.
     fn follow_format(&mut self) {
         let path = Path::new(&self.text);
-        let stem = if ExportFormat::of(path).is_ok() { path.with_extension("") } else { path.to_owned() };
+        let stem =
+            if ExportFormat::from_path(path).is_ok() { path.with_extension("") } else { path.to_owned() };
         let name = stem.to_string_lossy().into_owned();
         self.text = if name.is_empty() { name } else { format!("{name}.{}", self.format.ending()) };
         (self.is_typed, self.problem) = (false, None);

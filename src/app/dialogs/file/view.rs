@@ -50,14 +50,14 @@ pub enum FileAnswer {
 }
 
 /// The keys that move in the list, taken from the text field.
-struct Keys {
+struct ListKeys {
     steps: i64,
     enter: bool,
     tab: bool,
     up: bool,
 }
 
-impl Keys {
+impl ListKeys {
     fn take(ui: &Ui) -> Self {
         ui.input_mut(|input| Self {
             up: input.consume_key(Modifiers::ALT, Key::ArrowUp),
@@ -188,7 +188,7 @@ impl FileDialog {
 
     /// Shows the text and the keys that act on it; answers the path when Enter was pressed.
     fn text_row(&mut self, ui: &mut Ui, rows: &[FolderEntry]) -> Option<PathBuf> {
-        let keys = if ui.is_enabled() { Some(Keys::take(ui)) } else { None };
+        let keys = if ui.is_enabled() { Some(ListKeys::take(ui)) } else { None };
         let before = self.text.clone();
         let error = self.problem.as_deref().map(|message| TextError { message, at: None });
         let response =
@@ -216,7 +216,7 @@ impl FileDialog {
         }
     }
 
-    fn act(&mut self, ui: &Ui, response: &Response, keys: Keys, rows: &[FolderEntry]) -> Option<PathBuf> {
+    fn act(&mut self, ui: &Ui, response: &Response, keys: ListKeys, rows: &[FolderEntry]) -> Option<PathBuf> {
         if keys.up
             && let Some(parent) = self.typed().0.parent()
         {

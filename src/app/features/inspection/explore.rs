@@ -34,7 +34,7 @@ pub enum TreeStep {
 /// The explanation of the queried triangle, and what of it is looked at.
 #[derive(Default)]
 pub struct Explore {
-    key: Option<Key>,
+    key: Option<ExplanationKey>,
     explanation: Option<Explanation>,
     /// The triangle that the user went to, if it is not the queried one.
     place: Option<TreeTriangle>,
@@ -44,7 +44,7 @@ pub struct Explore {
 
 /// The data that an explanation depends on.
 #[derive(Clone, Copy, PartialEq)]
-struct Key {
+struct ExplanationKey {
     point: DVec2,
     document: u64,
     mesh: u64,
@@ -55,8 +55,11 @@ impl Explore {
     pub fn advance(&mut self, session: &Session) {
         let (document, follower) = (session.document(), session.follower());
         let complete = session.queried().filter(|_| follower.is_in_step(document));
-        let key =
-            complete.map(|point| Key { point, document: document.revision(), mesh: follower.revision() });
+        let key = complete.map(|point| ExplanationKey {
+            point,
+            document: document.revision(),
+            mesh: follower.revision(),
+        });
         if key == self.key {
             return;
         }
@@ -68,7 +71,7 @@ impl Explore {
             let criterion =
                 RefinementCriterion::new(follower.domain(), follower.field(), settings.rule, paint)
                     .with_surface(follower.surface().map(|surface| &**surface));
-            let triangle = TreeTriangle::of(follower.mesh(), id);
+            let triangle = TreeTriangle::from_mesh(follower.mesh(), id);
             Explanation::new(follower.mesh(), triangle, &criterion, &settings.limits())
         });
     }
@@ -155,7 +158,7 @@ impl Explore {
     /// Returns the node that is shown.
     pub fn node(&self, mesh: &Mesh) -> Option<NodeFacts> {
         let at = self.shown()?.corners()[self.corner?];
-        node_at(mesh, at).map(|node| NodeFacts::of(mesh, node))
+        node_at(mesh, at).map(|node| NodeFacts::new(mesh, node))
     }
 }
 

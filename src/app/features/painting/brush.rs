@@ -125,13 +125,13 @@ pub fn press_to_paint(
     }
     commands.push(Command::from(BrushCommand::BeginStroke(point)));
     let slack = LONGEST_STRING * pointer.tools.smoothing as f32;
-    Some(Box::new(Painting { brush: press.at, pointer: press.at, slack }))
+    Some(Box::new(StrokeInHand { brush: press.at, pointer: press.at, slack }))
 }
 
 /// A stroke. With smoothing, the pointer pulls the brush on a string, so that small movements of the hand do
 /// not move it.
 #[derive(Debug)]
-struct Painting {
+struct StrokeInHand {
     /// The position of the brush, in points.
     brush: Pos2,
     /// The position of the pointer, in points.
@@ -140,7 +140,7 @@ struct Painting {
     slack: f32,
 }
 
-impl Gesture for Painting {
+impl Gesture for StrokeInHand {
     fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         self.pointer = at;
         let (pull, distance) = (at - self.brush, at.distance(self.brush));

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::finder::Key;
-use super::prover::Known;
+use super::prover::FoundPaths;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::path::{Alternatives, Difference, Solution};
 use meshbrush_mesh::geometry::nearest_on_segment;
@@ -98,7 +98,7 @@ impl AlternativesFinder {
         &mut self,
         of: (Key, usize),
         (best, places): (&Solution, &[DVec2]),
-        basis: &Known,
+        basis: &FoundPaths,
         jobs: &Jobs,
     ) {
         if !self.is_on {
@@ -122,7 +122,7 @@ impl AlternativesFinder {
         }
     }
 
-    fn start(&mut self, best: &Solution, places: Vec<DVec2>, basis: &Known, jobs: &Jobs) {
+    fn start(&mut self, best: &Solution, places: Vec<DVec2>, basis: &FoundPaths, jobs: &Jobs) {
         (self.paths, self.pointed, self.best) = (Vec::new(), None, Some(best.clone()));
         let (mesh, best, density) = (basis.mesh.clone(), best.clone(), basis.density.clone());
         let begin = move || Some(Alternatives::new(mesh, places, best, Difference::default()));

@@ -27,7 +27,7 @@ pub fn export(
     background: &mut Background,
     path: &Path,
 ) -> Result<(), String> {
-    let format = PathFormat::of(path).map_err(|error| format!("{error}."))?;
+    let format = PathFormat::from_path(path).map_err(|error| format!("{error}."))?;
     let solution = current_path(session, paths, tool)?.clone();
     let settings = session.document().settings().clone();
     let plane = EarthPlane::new(settings.domain.projection, settings.unit);

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use super::alternatives::AlternativesFinder;
 use super::corridor::ShownCorridor;
 use super::front::FrontFinder;
-use super::prover::{Known, Prover};
+use super::prover::{FoundPaths, Prover};
 use super::work::{
     FoundPath, KnownPlanner, PathWork, PlannedMesh, PlannerSource, ShownPath, Work, WorkResult, find_corridor,
 };
@@ -54,7 +54,7 @@ pub struct PathFinder {
     /// Whether it was said that a proof exchanged the path.
     told: Vec<bool>,
     /// The data with which the shown paths were found.
-    basis: Option<Known>,
+    basis: Option<FoundPaths>,
     prover: Prover,
     /// The corridor of nearly best paths.
     pub corridor: ShownCorridor,
@@ -215,7 +215,7 @@ impl PathFinder {
             WorkResult::Corridor(lines) => self.corridor.lines = lines.into(),
             WorkResult::Paths { density, routes } => {
                 self.take_paths(routes);
-                self.basis = mesh.zip(density).map(|(mesh, density)| Known { density, mesh });
+                self.basis = mesh.zip(density).map(|(mesh, density)| FoundPaths { density, mesh });
                 self.prover.begin(self.basis.clone());
                 self.key = Some(key);
             }

@@ -14,7 +14,7 @@ use meshbrush_mesh::mesh::Progress;
 
 /// Certifies one path after the other.
 pub struct Prover {
-    known: Option<Known>,
+    known: Option<FoundPaths>,
     /// The requested width of the interval, as a share of the cost.
     pub width: f64,
     /// The job that certifies a path. Each proof that it sends is better than the previous one.
@@ -25,7 +25,7 @@ pub struct Prover {
 
 /// The data with which the paths were found.
 #[derive(Clone)]
-pub struct Known {
+pub struct FoundPaths {
     /// The cost density of the paths.
     pub density: Arc<dyn CostDensity>,
     /// The triangles that they go through, and the area that these are in.
@@ -74,7 +74,7 @@ impl Prover {
     }
 
     /// Begins with new paths.
-    pub fn begin(&mut self, known: Option<Known>) {
+    pub fn begin(&mut self, known: Option<FoundPaths>) {
         self.restart();
         self.known = known;
     }
@@ -108,7 +108,7 @@ impl Prover {
     }
 
     fn start(&self, solution: &Solution, domain: &Domain, jobs: &Jobs) -> Option<Running> {
-        let Known { density, mesh } = self.known.clone()?;
+        let FoundPaths { density, mesh } = self.known.clone()?;
         let (path, upper) = (solution.points.clone(), solution.upper);
         let task = CertificateTask::in_rectangle(domain.bounds, density, path, upper, self.width).ok()?;
         let (domain, solution) = (domain.clone(), solution.clone());

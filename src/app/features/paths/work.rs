@@ -234,12 +234,12 @@ pub(super) struct PathWork {
     pub unit: LengthUnit,
     pub is_live: bool,
     density: Arc<dyn CostDensity>,
-    step: Step,
+    step: PathStep,
     found: Vec<Result<FoundPath, PathError>>,
 }
 
 /// What is done next.
-enum Step {
+enum PathStep {
     /// Begins with the triangles of a mesh, if there is another one.
     Start(PlannerSource),
     /// Finds those in the area of paths.
@@ -271,7 +271,7 @@ impl PathWork {
         is_live: bool,
     ) -> Option<Self> {
         let density = plan.cost.density(risk.clone(), &domain).ok()?;
-        let (step, found) = (Step::Start(source), Vec::new());
+        let (step, found) = (PathStep::Start(source), Vec::new());
         Some(Self { plan, risk, domain, unit, is_live, density, step, found })
     }
 
@@ -292,92 +292,94 @@ impl PathWork {
         }
     }
 
-    fn step(&mut self) -> Result<ControlFlow<Option<Work>, Step>, PathError> {
+    fn step(&mut self) -> Result<ControlFlow<Option<Work>, PathStep>, PathError> {
         let Self { plan, risk, domain, density, is_live, .. } = self;
-        Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Start(PlannerSource { known, mesh: Some(mesh) }) => {
-                Step::Close(known, Box::new(mesh.in_area(plan, domain)?))
+        Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, PathStep::Done) {
+            PathStep::Start(PlannerSource { known, mesh: Some(mesh) }) => {
+                PathStep::Close(known, Box::new(mesh.in_area(plan, domain)?))
             }
-            Step::Start(PlannerSource { known: Some(known), mesh: None }) => Step::Follow(known),
-            Step::Start(PlannerSource { known: None, mesh: None }) => return Ok(ControlFlow::Break(None)),
-            Step::Close(known, mut meshing) => match meshing.advance(AT_ONCE) {
-                None => Step::Close(known, meshing),
+            PathStep::Start(PlannerSource { known: Some(known), mesh: None }) => PathStep::Follow(known),
+            PathStep::Start(PlannerSource { known: None, mesh: None }) => {
+                return Ok(ControlFlow::Break(None));
+            }
+            PathStep::Close(known, mut meshing) => match meshing.advance(AT_ONCE) {
+                None => PathStep::Close(known, meshing),
                 Some(mesh) => self.take_mesh(known, Arc::new(mesh)),
             },
-            Step::Detail(mesh) => {
+            PathStep::Detail(mesh) => {
                 let detailed = mesh.detailed(&plan.routes);
                 let planning = Planning::new(Arc::clone(&detailed));
-                Step::Plan([mesh, detailed], planning)
+                PathStep::Plan([mesh, detailed], planning)
             }
-            Step::Plan(meshes, mut planning) => match planning.advance(&**density)? {
-                None => Step::Plan(meshes, planning),
+            PathStep::Plan(meshes, mut planning) => match planning.advance(&**density)? {
+                None => PathStep::Plan(meshes, planning),
                 Some(planner) => {
                     let known = KnownPlanner::new(planner, meshes, (plan.clone(), risk.clone()), domain);
-                    Step::Begin(Box::new(known))
+                    PathStep::Begin(Box::new(known))
                 }
             },
-            Step::Follow(mut known) => {
+            PathStep::Follow(mut known) => {
                 let areas = known.changed_areas(plan, risk, domain);
                 known.follow(plan.clone(), &**density, &areas, *is_live)?;
                 self.begin_routes(known)
             }
-            Step::Move(mut known, meshes, mut moving) => {
+            PathStep::Move(mut known, meshes, mut moving) => {
                 match moving.advance(&mut known.planner, &**density)? {
-                    Progress::More => Step::Move(known, meshes, moving),
+                    Progress::More => PathStep::Move(known, meshes, moving),
                     Progress::Done => {
                         known.note_move(meshes, plan.clone());
                         self.begin_routes(known)
                     }
                 }
             }
-            Step::Begin(known) => {
+            PathStep::Begin(known) => {
                 let Some(places) = plan.routes.get(self.found.len()) else {
                     return Ok(ControlFlow::Break(Some(self.work(*known))));
                 };
                 match PathSearch::new(&known.planner, places, request(*is_live)) {
-                    Ok(search) => Step::Search(known, Box::new(search)),
+                    Ok(search) => PathStep::Search(known, Box::new(search)),
                     Err(problem) => self.without_path(known, problem),
                 }
             }
-            Step::Search(known, search) => self.search(known, search),
-            Step::Profile(known, solution) => {
+            PathStep::Search(known, search) => self.search(known, search),
+            PathStep::Profile(known, solution) => {
                 let place = (EarthPlane::new(domain.projection, self.unit), self.unit);
                 self.found.push(Ok(FoundPath::new(*solution, &**density, place)));
-                Step::Begin(known)
+                PathStep::Begin(known)
             }
-            Step::Done => return Ok(ControlFlow::Break(None)),
+            PathStep::Done => return Ok(ControlFlow::Break(None)),
         }))
     }
 
     /// Goes over to a mesh in the area of paths, or begins with it.
-    fn take_mesh(&self, known: Option<Box<KnownPlanner>>, mesh: Arc<PathMesh>) -> Step {
-        let Some(known) = known else { return Step::Detail(mesh) };
+    fn take_mesh(&self, known: Option<Box<KnownPlanner>>, mesh: Arc<PathMesh>) -> PathStep {
+        let Some(known) = known else { return PathStep::Detail(mesh) };
         let detailed = mesh.detailed(&self.plan.routes);
         let areas = known.changed_areas(&self.plan, &self.risk, &self.domain);
         let moving = PlannerMove::new(Arc::clone(&detailed), &areas);
-        Step::Move(known, [mesh, detailed], Box::new(moving))
+        PathStep::Move(known, [mesh, detailed], Box::new(moving))
     }
 
     /// Begins with the routes, when the planner knows the plan.
-    fn begin_routes(&self, mut known: Box<KnownPlanner>) -> Step {
+    fn begin_routes(&self, mut known: Box<KnownPlanner>) -> PathStep {
         (known.risk, known.domain, known.corridor) = (self.risk.clone(), self.domain.clone(), None);
-        Step::Begin(known)
+        PathStep::Begin(known)
     }
 
     /// Goes on to find the path of a route.
-    fn search(&mut self, mut known: Box<KnownPlanner>, mut search: Box<PathSearch>) -> Step {
+    fn search(&mut self, mut known: Box<KnownPlanner>, mut search: Box<PathSearch>) -> PathStep {
         match search.advance(&mut known.planner, &*self.density, PathSearch::NODES_AT_ONCE) {
-            Ok(None) => Step::Search(known, search),
-            Ok(Some(solution)) => Step::Profile(known, Box::new(solution)),
+            Ok(None) => PathStep::Search(known, search),
+            Ok(Some(solution)) => PathStep::Profile(known, Box::new(solution)),
             Err(problem) => self.without_path(known, problem),
         }
     }
 
     /// The next route has no path, for a reason.
-    fn without_path(&mut self, known: Box<KnownPlanner>, problem: PathError) -> Step {
+    fn without_path(&mut self, known: Box<KnownPlanner>, problem: PathError) -> PathStep {
         let places = &self.plan.routes[self.found.len()];
         self.found.push(Err(problem.in_domain(&self.domain, places)));
-        Step::Begin(known)
+        PathStep::Begin(known)
     }
 
     fn work(&mut self, planner: KnownPlanner) -> Work {

@@ -17,7 +17,7 @@ use meshbrush_ui::widgets::format;
 
 /// The data that the values of all pins depend on.
 #[derive(Clone, Debug, PartialEq)]
-struct Key {
+struct PinTableKey {
     pins: Arc<Vec<DVec2>>,
     quantity: Quantity,
     document: u64,
@@ -25,7 +25,7 @@ struct Key {
     derived: u64,
 }
 
-impl Key {
+impl PinTableKey {
     fn of(session: &Session, quantity: Quantity) -> Self {
         Self {
             pins: session.document().settings().pins.clone(),
@@ -49,7 +49,7 @@ pub struct PinRow {
 /// Reads the values of the pins, some in each frame while the table is shown, and keeps them.
 #[derive(Default)]
 pub struct PinReader {
-    key: Option<Key>,
+    key: Option<PinTableKey>,
     rows: Vec<Option<PinRow>>,
     /// The pin that is read next: reading goes round, so that no pin waits while edits go on.
     next: usize,
@@ -65,12 +65,12 @@ impl PinReader {
 
     /// Returns whether all values are those of the document and the mesh as they are.
     pub fn is_current(&self, session: &Session, quantity: Quantity) -> bool {
-        self.left == 0 && self.key.as_ref() == Some(&Key::of(session, quantity))
+        self.left == 0 && self.key.as_ref() == Some(&PinTableKey::of(session, quantity))
     }
 
     /// Reads pins until all are current, or until `deadline`.
     pub fn advance(&mut self, session: &Session, quantity: Quantity, deadline: Instant) {
-        let key = Key::of(session, quantity);
+        let key = PinTableKey::of(session, quantity);
         let pins = key.pins.clone();
         if self.key.as_ref() != Some(&key) {
             self.rows.resize(pins.len(), None);

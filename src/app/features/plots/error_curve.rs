@@ -16,13 +16,13 @@ use meshbrush_study::plot::Plot;
 /// Traces the curves of the document, and keeps the last ones.
 #[derive(Default)]
 pub struct TracedCurves {
-    /// By the number of [`Asked`].
+    /// By the number of [`CurveInputs`].
     curves: Slot<u64, Result<ErrorCurves, String>>,
-    asked: Option<Asked>,
+    asked: Option<CurveInputs>,
 }
 
 /// What the curves of a document depend on.
-struct Asked {
+struct CurveInputs {
     /// Of the document.
     revision: u64,
     /// Grows when anything below changes.
@@ -49,7 +49,7 @@ impl TracedCurves {
             return;
         }
         self.ask(session);
-        let Some(Asked { number, work: Some((spec, norm)), paint, .. }) = &self.asked else { return };
+        let Some(CurveInputs { number, work: Some((spec, norm)), paint, .. }) = &self.asked else { return };
         let (spec, norm, paint) = (spec.clone(), *norm, paint.clone());
         let follower = session.follower();
         // A mesh that was given up is not that of the document.
@@ -91,12 +91,12 @@ impl TracedCurves {
             Some(asked) => asked.number + 1,
             None => 0,
         };
-        self.asked = Some(Asked { revision, number, work, paint });
+        self.asked = Some(CurveInputs { revision, number, work, paint });
     }
 
     /// Takes what was traced. Returns whether curves are being traced.
     pub fn take(&mut self, session: &Session, jobs: &Jobs) -> bool {
-        let is_of_document = |asked: &&Asked| {
+        let is_of_document = |asked: &&CurveInputs| {
             asked.revision == session.document().revision() || session.document().is_in_gesture()
         };
         if let Some(asked) = self.asked.as_ref().filter(is_of_document) {

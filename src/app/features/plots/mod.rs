@@ -37,7 +37,7 @@ const WITHOUT_SURFACE: &str =
 
 /// The data that the figures of the levels depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Key {
+struct LevelPlotKey {
     mesh: MeasuredMesh,
     document: u64,
 }
@@ -45,7 +45,7 @@ struct Key {
 /// Computes what plots show, and keeps it.
 pub struct Plots {
     kind: PlotKind,
-    levels: Slot<Key, Vec<LevelFigures>>,
+    levels: Slot<LevelPlotKey, Vec<LevelFigures>>,
     errors: TracedCurves,
     experiment: Experiment,
     /// The runs of an experiment in progress, each with its round.
@@ -104,7 +104,7 @@ impl Plots {
             PlotKind::Bisections => bisections_plot(levels),
             _ => diameters_plot(levels, session.document().settings().unit),
         };
-        Some((plot, *key == Key::of(session)))
+        Some((plot, *key == LevelPlotKey::of(session)))
     }
 
     /// Returns whether there is a plot to show.
@@ -133,7 +133,7 @@ impl Plots {
         }
         let is_settled =
             MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation());
-        is_settled && !self.levels.is_running() && !self.levels.has(&Key::of(session))
+        is_settled && !self.levels.is_running() && !self.levels.has(&LevelPlotKey::of(session))
     }
 
     /// Computes what the chosen plot shows on another thread, where that is due.
@@ -154,9 +154,9 @@ impl Plots {
             let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
                 .with_surface(surface.as_deref());
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
-            wanted.goes_on().then(|| LevelFigures::of(&mesh, &extract, &criterion, &limits))
+            wanted.goes_on().then(|| LevelFigures::new(&mesh, &extract, &criterion, &limits))
         };
-        self.levels.start_wanted(Key::of(session), compute, jobs);
+        self.levels.start_wanted(LevelPlotKey::of(session), compute, jobs);
     }
 
     /// Takes what was computed and measured, waiting for figures of levels as long as the frame may. Returns
@@ -180,7 +180,7 @@ impl Plots {
             }
         }
         if MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation()) {
-            self.levels.want(&Key::of(session), jobs);
+            self.levels.want(&LevelPlotKey::of(session), jobs);
         }
         let is_tracing = self.errors.take(session, jobs);
         Ok(self.levels.take(jobs) || is_tracing)
@@ -250,7 +250,7 @@ impl Plots {
     }
 }
 
-impl Key {
+impl LevelPlotKey {
     fn of(session: &Session) -> Self {
         let mesh = MeasuredMesh::now(session.follower(), session.derivation());
         Self { mesh, document: session.document().revision() }

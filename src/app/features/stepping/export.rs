@@ -81,7 +81,7 @@ impl Steps {
                 text: if ground == Ground::Dark { ON_DARK } else { ON_LIGHT },
                 parts: [waiting, relinked, across],
             };
-            let mut written = Written::default();
+            let mut written = WrittenSteps::default();
             for (position, file) in range.zip(&files) {
                 player.go_to(position);
                 let (mut drawing, is_new) = (Vec::new(), !io::exists(file));
@@ -102,13 +102,13 @@ impl Steps {
 
 /// The drawings that are written so far.
 #[derive(Default)]
-struct Written {
+struct WrittenSteps {
     new: Vec<PathBuf>,
     /// Those in place of other files.
     replaced: Vec<PathBuf>,
 }
 
-impl Written {
+impl WrittenSteps {
     /// Removes the new ones, because the export did not come to its end, and says what cannot be taken back.
     fn take_back(self, outcome: Outcome) -> Outcome {
         io::remove_new(&self.new);

@@ -10,7 +10,7 @@ use crate::app::command::Command;
 use crate::app::features::stepping::Stepping;
 use crate::app::kit::{FrameState, remark};
 use meshbrush_mesh::mesh::bisection_edge_length;
-use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer, StepStage};
+use meshbrush_study::steps::{NeighbourCase, RecordedStep, StepAction, StepPlayer, StepStage};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 
@@ -184,7 +184,7 @@ fn row(ui: &mut Ui, label: &str, value: &str, help: &str) {
 }
 
 /// (k, O, O_b) with the routine that it chooses.
-fn case(step: &Step) -> String {
+fn case(step: &RecordedStep) -> String {
     let is_known = matches!(
         step.action,
         StepAction::Divisible | StepAction::Bisect | StepAction::Pop | StepAction::UpdateNeighbours(_)

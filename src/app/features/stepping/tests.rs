@@ -422,7 +422,7 @@ fn the_step_is_seen_on_the_canvas() {
     begin(&mut window);
     let steps = player(&window).recording().steps();
     let updates =
-        |step: &meshbrush_study::steps::Step| matches!(step.action, StepAction::UpdateNeighbours(_));
+        |step: &meshbrush_study::steps::RecordedStep| matches!(step.action, StepAction::UpdateNeighbours(_));
     let deep = steps.iter().position(|step| updates(step) && step.level >= 3).unwrap();
     send(&mut window, Command::from(StepCommand::GoTo(deep + 1)));
     let numbers = painted_texts(window.output());

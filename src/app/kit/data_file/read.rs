@@ -37,7 +37,7 @@ pub fn look_at(background: &mut Background, path: &Path, frame: RasterFrame) {
 /// Fails with a sentence when the file is of no use, or the work was cancelled.
 fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, String> {
     let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-    let seen = match RasterFormat::of(path) {
+    let seen = match RasterFormat::from_path(path) {
         Ok(_) => raster(path, frame, meter)?,
         Err(_) if is_table => table(path, meter)?,
         Err(_) => shapes(path, frame.plane.as_ref(), meter)?,

@@ -31,7 +31,7 @@ pub struct Coasts {
 impl Coasts {
     /// Returns the coasts of a domain; none of a domain that is given by a formula, or of a whole rectangle,
     /// unless a mark makes a side of it land.
-    pub fn of(domain: &Domain, marks: &BoundaryMarks) -> Self {
+    pub fn new(domain: &Domain, marks: &BoundaryMarks) -> Self {
         let lengths = lengths_of_rings(domain);
         let mut edges: Vec<CoastEdge> = Vec::new();
         for piece in coast_pieces(domain, marks) {
@@ -91,9 +91,9 @@ fn lengths_of_rings(domain: &Domain) -> Vec<f64> {
 }
 
 impl BoundaryMarks {
-    /// Returns the marks that decide where the coasts are: without names that say nothing about that.
+    /// Returns the marks that decide where the coasts are, without names that do not matter for that.
     pub fn of_coasts(&self) -> Self {
-        let decides = |name: &str| BoundaryType::of_name(name).is_some();
+        let decides = |name: &str| BoundaryType::from_name(name).is_some();
         // The first name of a piece counts, so that another one before it matters.
         let names =
             if self.names.iter().any(|(_, name)| decides(name)) { self.names.clone() } else { Vec::new() };

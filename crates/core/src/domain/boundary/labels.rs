@@ -9,8 +9,8 @@ pub(super) struct Choice {
     pub(super) change: f64,
 }
 
-/// Returns the labels of a closed loop with the least sum of costs, by dynamic programming. Of equal sums,
-/// that with the lower labels. `start` is an edge with few labels: each of them takes one pass over all
+/// Returns the labels of a closed loop with the least sum of costs, by dynamic programming; of equal sums,
+/// the one with the lower labels. `start` is an edge with few labels, as each of them takes one pass over all
 /// labels of all edges.
 pub(super) fn cheapest_labels(choices: &[Choice], start: usize) -> Vec<u32> {
     let count = choices.len();

@@ -66,8 +66,8 @@ impl BoundaryMarks {
         size_of_val(&*self.splits) + size_of_val(&*self.names) + size_of_val(&*self.types) + names
     }
 
-    /// Returns a name as files can hold it: without control characters, quotation marks and backslashes,
-    /// which become blanks, apostrophes and slashes, and without blanks at its ends.
+    /// Returns a name that files can hold: control characters become blanks, quotation marks apostrophes, and
+    /// backslashes slashes; blanks at the ends are removed.
     pub fn valid_name(text: &str) -> String {
         let valid = |c: char| match c {
             '"' => '\'',

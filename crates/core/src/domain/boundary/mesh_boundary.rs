@@ -45,22 +45,22 @@ pub struct PieceRun {
 }
 
 impl MeshBoundary {
-    /// Returns the boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the
-    /// corners of the domain that are near each of them.
+    /// Returns the boundary of a mesh of a domain. Takes time proportional to the boundary edges and to the
+    /// corners of the domain near each of them.
     pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
-        Self::of_pieces(extract, BoundaryPieces::of(domain, extract, marks))
+        Self::from_pieces(extract, BoundaryPieces::of(domain, extract, marks))
     }
 
     /// Returns the boundary of a mesh in pieces that follow from the mesh alone: sides of the frame, outer
     /// loops, holes.
-    pub fn of_mesh(extract: &Extract) -> Self {
-        Self::of_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
+    pub fn from_mesh(extract: &Extract) -> Self {
+        Self::from_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
     }
 
     /// Returns the boundary of a mesh in pieces that were found before.
-    pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
+    pub fn from_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
         let edges: Vec<[DVec2; 2]> = edges(extract).collect();
-        let candidates = Candidates::new(extract, &pieces);
+        let candidates = PieceCandidates::new(extract, &pieces);
         let mut piece_of_edge = vec![0; edges.len()];
         for numbers in extract.boundary_edge_loops() {
             let choices: Vec<Choice> = numbers.iter().map(|&n| candidates.of_edge(edges[n])).collect();
@@ -164,7 +164,7 @@ impl MeshBoundary {
 }
 
 /// The pieces that an edge may belong to.
-struct Candidates<'a> {
+struct PieceCandidates<'a> {
     pieces: &'a BoundaryPieces,
     frame: Rect,
     /// The side of the frame that each piece is on.
@@ -179,7 +179,7 @@ fn edges(extract: &Extract) -> impl Iterator<Item = [DVec2; 2]> {
 /// How much farther than the nearest a piece may be, in lengths of the edge.
 const MARGIN: f64 = 2.0;
 
-impl<'a> Candidates<'a> {
+impl<'a> PieceCandidates<'a> {
     fn new(extract: &Extract, pieces: &'a BoundaryPieces) -> Self {
         let frame = extract.lattice().bounds();
         let sides = pieces.list().iter().map(|piece| side_of_frame(piece, &frame)).collect();
@@ -207,8 +207,9 @@ impl<'a> Candidates<'a> {
         Choice { labels, change }
     }
 
-    /// Beside an open piece, leaves of the pieces near an edge the open one that both its ends are on, or
-    /// none that is open: where water flows across does not depend on the lengths of edges.
+    /// Of the pieces near an edge beside an open piece, keeps only the open one that both ends of the edge
+    /// are on, or else only those that are not open: where water flows across must not depend on the lengths
+    /// of edges.
     fn keep_those_along(
         &self,
         edge: [DVec2; 2],

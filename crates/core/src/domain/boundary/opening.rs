@@ -60,12 +60,12 @@ impl BoundaryPieces {
 }
 
 /// A part of a piece, all of which is open, or none.
-struct Part {
+struct PiecePart {
     is_open: bool,
     points: Vec<DVec2>,
 }
 
-impl Part {
+impl PiecePart {
     fn middle(&self) -> DVec2 {
         super::pieces::middle(&self.points)
     }
@@ -73,9 +73,9 @@ impl Part {
 
 /// Returns the parts of a piece in their order. Where a closed piece changes, its first part begins at a
 /// change.
-fn parts(piece: &BoundaryPiece, step: f64, is_open: &impl Fn(DVec2) -> bool) -> Vec<Part> {
+fn parts(piece: &BoundaryPiece, step: f64, is_open: &impl Fn(DVec2) -> bool) -> Vec<PiecePart> {
     let first = piece.points[0];
-    let mut parts = vec![Part { is_open: is_open(first), points: vec![first] }];
+    let mut parts = vec![PiecePart { is_open: is_open(first), points: vec![first] }];
     for ends in piece.points.windows(2) {
         let steps = (length(ends) / step).ceil().max(1.0) as u32;
         let share = |n: u32| f64::from(n) / f64::from(steps);
@@ -89,7 +89,7 @@ fn parts(piece: &BoundaryPiece, step: f64, is_open: &impl Fn(DVec2) -> bool) -> 
             let change = change(from, to, is_open);
             part.points.push(change);
             let is_open = !part.is_open;
-            parts.push(Part { is_open, points: vec![change, to] });
+            parts.push(PiecePart { is_open, points: vec![change, to] });
         }
     }
     if piece.is_closed() && parts.len() > 1 && parts[0].is_open == parts[parts.len() - 1].is_open {

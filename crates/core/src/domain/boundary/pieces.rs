@@ -37,7 +37,7 @@ impl BoundaryPiece {
         self.points.first() == self.points.last()
     }
 
-    /// Returns what it is for a solver: the type that was set, or else the usual one.
+    /// Returns what it is for a solver: the type that was set, or else the default one.
     pub fn boundary_type(&self) -> BoundaryType {
         self.set_type.unwrap_or_else(|| self.usual_type())
     }
@@ -46,7 +46,7 @@ impl BoundaryPiece {
     /// ([`BoundaryKind::Open`]), and land elsewhere. A name that was given decides against that if it begins
     /// with `open` or with `land`, in upper or lower case.
     pub fn usual_type(&self) -> BoundaryType {
-        let of_name = if self.is_named { BoundaryType::of_name(&self.name) } else { None };
+        let of_name = if self.is_named { BoundaryType::from_name(&self.name) } else { None };
         let of_kind = if self.kind == BoundaryKind::Open { BoundaryType::Open } else { BoundaryType::Land };
         of_name.unwrap_or(of_kind)
     }
@@ -164,7 +164,7 @@ impl BoundaryPieces {
         (next != piece && meet).then_some(next)
     }
 
-    /// Returns the marks with another name for a piece. An empty name gives it back the usual one.
+    /// Returns the marks with another name for a piece. An empty name restores the default one.
     pub fn renamed(&self, marks: &BoundaryMarks, piece: usize, name: &str) -> BoundaryMarks {
         let mut marks = marks.clone();
         marks.names.retain(|(place, _)| !self.is_on(*place, piece));
@@ -175,7 +175,7 @@ impl BoundaryPieces {
         marks
     }
 
-    /// Returns the marks with another type for a piece; without one, the piece gets back the usual one.
+    /// Returns the marks with another type for a piece; without one, the piece has its default type again.
     pub fn retyped(
         &self,
         marks: &BoundaryMarks,
@@ -238,7 +238,7 @@ impl BoundaryPieces {
 }
 
 /// Returns the pieces of a domain as [`BoundaryPieces::of_domain`] does, without their index. Without marks
-/// that takes time in proportion to the corners.
+/// that takes time proportional to the corners.
 pub(super) fn unindexed_pieces(domain: &Domain, marks: &BoundaryMarks) -> Option<Vec<BoundaryPiece>> {
     if !marks.is_empty() {
         return BoundaryPieces::of_domain(domain, marks).map(|pieces| pieces.pieces);

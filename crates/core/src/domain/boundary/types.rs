@@ -2,7 +2,7 @@
 
 /// What a piece of the boundary is for a solver.
 ///
-/// Land and inflows differ in how a solver treats the flow there. The usual way has no word of its own: the
+/// Land and inflows differ in how a solver treats the flow there. The default way has no word of its own: the
 /// flow across the boundary is set, and the flow along it is free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -45,13 +45,13 @@ impl BoundaryType {
     }
 
     /// Returns the type of a word.
-    pub fn of_word(word: &str) -> Option<Self> {
+    pub fn from_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|boundary_type| boundary_type.word() == word)
     }
 
     /// Returns the type that a name asks for: open or land where it begins with that word, in upper or lower
     /// case.
-    pub fn of_name(name: &str) -> Option<Self> {
+    pub fn from_name(name: &str) -> Option<Self> {
         let begins =
             |word: &str| name.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
         [Self::Open, Self::Land].into_iter().find(|of_name| begins(of_name.word()))

@@ -4,8 +4,8 @@
 //! between the centres of pixels: where both depths are known, linear between them, otherwise halfway. It
 //! stays a thousandth of the way off each centre, so that rings never touch. Where water meets water at a
 //! corner of four centres only, the mean of their depths decides, and where one is unknown the land is
-//! joined. Beyond the last centres the depths of the last pixels go on to the sides of the raster, along
-//! which the outline closes.
+//! joined. Beyond the outermost centres, the depths of the last pixels continue to the sides of the raster,
+//! along which the outline closes.
 
 mod opening;
 mod trace;
@@ -124,7 +124,7 @@ impl DepthContour {
         if self.smallest_inlet > 0.0 {
             opening::open(&mut water, raster, lengths, self.smallest_inlet);
         }
-        let rings = trace::rings(&trace::Water {
+        let rings = trace::rings(&trace::WaterPixels {
             bounds: raster.bounds(),
             size: raster.size(),
             depths: &depths,

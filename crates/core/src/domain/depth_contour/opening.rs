@@ -56,7 +56,7 @@ fn squared(length: f64) -> f64 {
     length * length
 }
 
-/// Puts the least of `own(m) + (width · (m − n))²` over all m into each place n: the lower envelope of
+/// Sets each place n to the minimum of `own(m) + (width · (m − n))²` over all m: the lower envelope of
 /// parabolas (Felzenszwalb, Huttenlocher 2012).
 fn least_sums(own: impl Fn(usize) -> f64, width: f64, least: &mut [f32]) {
     // The parabolas of the envelope, and the place from which on each is the lowest.

@@ -20,7 +20,7 @@ use crate::geometry::Rect;
 const OFF_NODE: f64 = 1.0 / 1024.0;
 
 /// The pixels to trace.
-pub(super) struct Water<'a> {
+pub(super) struct WaterPixels<'a> {
     pub bounds: Rect,
     pub size: [u32; 2],
     pub depths: &'a [f32],
@@ -37,43 +37,43 @@ pub(super) struct TracedRing {
 }
 
 /// A node by column and row: 0 is on a side of the raster, and −1 beyond it.
-type Node = [i64; 2];
+type GridNode = [i64; 2];
 
 /// An edge from a node to the next one along an axis.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Edge {
-    node: Node,
+    node: GridNode,
     axis: usize,
 }
 
 impl Edge {
-    fn ends(self) -> [Node; 2] {
+    fn ends(self) -> [GridNode; 2] {
         let mut end = self.node;
         end[self.axis] += 1;
         [self.node, end]
     }
 }
 
-impl Water<'_> {
+impl WaterPixels<'_> {
     /// Returns the number of the pixel of a node, unless it is beyond the sides.
-    fn pixel(&self, node: Node) -> Option<usize> {
+    fn pixel(&self, node: GridNode) -> Option<usize> {
         let [columns, rows] = self.size.map(i64::from);
         let is_node = (0..=columns + 1).contains(&node[0]) && (0..=rows + 1).contains(&node[1]);
         let [x, y] = [(node[0] - 1).clamp(0, columns - 1), (node[1] - 1).clamp(0, rows - 1)];
         is_node.then_some((y * columns + x) as usize)
     }
 
-    fn is_water(&self, node: Node) -> bool {
+    fn is_water(&self, node: GridNode) -> bool {
         self.pixel(node).is_some_and(|pixel| self.water[pixel])
     }
 
     /// Returns the depth at a node, if it is known.
-    fn depth(&self, node: Node) -> Option<f64> {
+    fn depth(&self, node: GridNode) -> Option<f64> {
         let depth = f64::from(self.depths[self.pixel(node)?]);
         (!depth.is_nan()).then_some(depth)
     }
 
-    fn place(&self, node: Node) -> DVec2 {
+    fn place(&self, node: GridNode) -> DVec2 {
         let Rect { min, max } = self.bounds;
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
         let pixel = (max - min) / size;
@@ -105,19 +105,19 @@ impl Water<'_> {
     }
 
     /// Returns whether the water of opposite corners of a square is joined in its middle.
-    fn is_joined(&self, corners: [Node; 4]) -> bool {
+    fn is_joined(&self, corners: [GridNode; 4]) -> bool {
         let known = corners.map(|node| self.depth(node).filter(|_| self.is_traced(node)));
         let sum: Option<f64> = known.into_iter().sum();
         sum.is_some_and(|sum| 0.25 * sum > self.level)
     }
 
     /// Returns whether a node is water, or shallower than the level: not water that was closed.
-    fn is_traced(&self, node: Node) -> bool {
+    fn is_traced(&self, node: GridNode) -> bool {
         self.is_water(node) || self.depth(node).is_some_and(|depth| depth <= self.level)
     }
 
     /// Adds the segments in the square above and to the right of a node, each from an edge to another one.
-    fn add_segments(&self, [x, y]: Node, next: &mut HashMap<Edge, Edge>) {
+    fn add_segments(&self, [x, y]: GridNode, next: &mut HashMap<Edge, Edge>) {
         let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
         let wet = corners.map(|node| self.is_water(node));
         if wet == [wet[0]; 4] {
@@ -141,7 +141,7 @@ impl Water<'_> {
 }
 
 /// Returns the rings of the outline of water.
-pub(super) fn rings(water: &Water) -> Vec<TracedRing> {
+pub(super) fn rings(water: &WaterPixels) -> Vec<TracedRing> {
     let [columns, rows] = water.size.map(i64::from);
     let mut next: HashMap<Edge, Edge> = HashMap::new();
     for y in -1..=rows + 1 {

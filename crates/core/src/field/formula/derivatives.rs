@@ -1,16 +1,16 @@
 //! Bounds of a formula's derivatives over a rectangle: automatic differentiation with intervals.
 
 use super::functions::OfThree;
-use super::gradient::{Along, Gradient, Slopes, ZERO, are_known, times};
+use super::gradient::{Along, Gradient, GradientBounds, ZERO, are_known, times};
 use super::interval;
-use super::machine::{self, Values};
+use super::machine::{self, Enclosure};
 use super::program::{Op, Program};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
 /// Values over a rectangle, and their gradient.
 #[derive(Clone, Copy)]
-pub(super) struct Varying<G: Slopes> {
+pub(super) struct Varying<G: GradientBounds> {
     pub value: Bounds,
     /// `None` where the values may jump, or a derivative is not known.
     pub gradient: Option<G>,
@@ -45,7 +45,7 @@ pub(super) fn slopes(program: &Program, rect: &Rect) -> Option<([Bounds; 2], f64
 }
 
 /// Returns the gradient of a program, if it is known. `of` makes a gradient from derivatives along the axes.
-fn gradient<G: Slopes>(
+fn gradient<G: GradientBounds>(
     program: &Program,
     rect: &Rect,
     (risk, risk_slopes): (Bounds, Along),
@@ -60,10 +60,10 @@ fn gradient<G: Slopes>(
     machine::run(program, values).gradient
 }
 
-impl<G: Slopes> Values for Varying<G> {
+impl<G: GradientBounds> Enclosure for Varying<G> {
     /// Returns values without derivatives, unless the bounds are one number: other bounds may come from a
     /// jump.
-    fn of_bounds(value: Bounds) -> Self {
+    fn from_bounds(value: Bounds) -> Self {
         let gradient = value.is_one().then_some(G::NONE);
         Self { value, gradient, of_root: G::keep(gradient.filter(|_| value.least >= 0.0)) }
     }
@@ -83,7 +83,7 @@ impl<G: Slopes> Values for Varying<G> {
         match op {
             Op::Two(function) => match G::of_two(function) {
                 Some(derivative) => derivative(a, b, value),
-                None => Self::of_bounds(value),
+                None => Self::from_bounds(value),
             },
             _ => Self::with_root(value, of_two(op, &a, &b, value), root_of_two(op, &a, &b)),
         }
@@ -95,11 +95,11 @@ impl<G: Slopes> Values for Varying<G> {
     }
 
     fn either(self, other: Self) -> Self {
-        Self::of_bounds(self.value.union(other.value))
+        Self::from_bounds(self.value.union(other.value))
     }
 }
 
-impl<G: Slopes> Varying<G> {
+impl<G: GradientBounds> Varying<G> {
     /// Returns values that are no squares as far as is known.
     pub fn new(value: Bounds, gradient: Option<G>) -> Self {
         Self::with_root(value, gradient, None)
@@ -135,7 +135,7 @@ impl<G: Slopes> Varying<G> {
 }
 
 /// Returns the sum of gradients, where both are known.
-fn sum<G: Slopes>(a: Option<G>, b: Option<G>) -> Option<G> {
+fn sum<G: GradientBounds>(a: Option<G>, b: Option<G>) -> Option<G> {
     Some(a?.plus(&b?))
 }
 
@@ -152,7 +152,7 @@ fn factor(op: Op, a: Bounds, result: Bounds) -> Option<Bounds> {
     })
 }
 
-fn of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>, value: Bounds) -> Option<G> {
+fn of_two<G: GradientBounds>(op: Op, a: &Varying<G>, b: &Varying<G>, value: Bounds) -> Option<G> {
     match op {
         Op::Add => sum(a.gradient, b.gradient),
         Op::Subtract => sum(a.gradient, b.gradient_times(Bounds::one(-1.0))),
@@ -176,7 +176,7 @@ fn of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>, value: Bounds) -> O
 }
 
 /// Returns the gradient of a root of a sum of squares, or of a multiple of one.
-fn root_of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>) -> Option<G> {
+fn root_of_two<G: GradientBounds>(op: Op, a: &Varying<G>, b: &Varying<G>) -> Option<G> {
     let multiple = |root: G, factor: &Varying<G>, size: fn(f64) -> f64| {
         let is_positive = factor.is_constant() && factor.value.least > 0.0;
         is_positive.then(|| root.times(Bounds::one(size(factor.value.least))))

@@ -72,7 +72,7 @@ fn wave(a: Bounds, crest: f64, function: fn(f64) -> f64) -> Bounds {
     if !is_known_angle(a) {
         return whole;
     }
-    let ends = Bounds::of_results(&[function(a.least), function(a.greatest)], a.valid).widened(ULPS);
+    let ends = Bounds::from_results(&[function(a.least), function(a.greatest)], a.valid).widened(ULPS);
     let least = if may_contain(a, crest + PI, TAU) { -1.0 } else { ends.least };
     let greatest = if may_contain(a, crest, TAU) { 1.0 } else { ends.greatest };
     Bounds { least, greatest, valid: a.valid }.intersection(whole)
@@ -146,7 +146,7 @@ pub(super) fn fract(a: Bounds) -> Bounds {
 fn at_corners(a: Bounds, b: Bounds, function: fn(f64, f64) -> f64) -> Bounds {
     let [p, q, r, s] = [a.least, a.greatest, b.least, b.greatest];
     let results = [function(p, r), function(p, s), function(q, r), function(q, s)];
-    Bounds::of_results(&results, a.valid && b.valid)
+    Bounds::from_results(&results, a.valid && b.valid)
 }
 
 pub(super) fn hypot(a: Bounds, b: Bounds) -> Bounds {
@@ -194,7 +194,7 @@ fn whole_power(a: Bounds, n: f64) -> Bounds {
     if n < 0.0 && a.has_zero() {
         return ALL;
     }
-    Bounds::of_results(&[libm::pow(a.least, n), libm::pow(a.greatest, n)], true).widened(ULPS)
+    Bounds::from_results(&[libm::pow(a.least, n), libm::pow(a.greatest, n)], true).widened(ULPS)
 }
 
 /// Returns bounds of powers of numbers that are at least 0. The logarithm of a power is the product of b and

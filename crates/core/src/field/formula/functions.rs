@@ -32,14 +32,14 @@ impl Form {
 
 /// A function and its help text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Function {
+pub(super) struct NamedFunction {
     pub(super) form: Form,
     /// A call: the name up to the parenthesis, and the names of the values.
     pub(super) call: &'static str,
     meaning: &'static str,
 }
 
-impl Function {
+impl NamedFunction {
     pub(super) fn name(&self) -> &'static str {
         self.call.split('(').next().unwrap_or(self.call)
     }
@@ -129,26 +129,26 @@ impl OfTwo {
     }
 }
 
-const fn one(call: &'static str, of: &'static OfOne, meaning: &'static str) -> Function {
+const fn one(call: &'static str, of: &'static OfOne, meaning: &'static str) -> NamedFunction {
     function(call, Form::Fixed(1, Op::One(of)), meaning)
 }
 
-const fn two(call: &'static str, of: &'static OfTwo, meaning: &'static str) -> Function {
+const fn two(call: &'static str, of: &'static OfTwo, meaning: &'static str) -> NamedFunction {
     function(call, Form::Fixed(2, Op::Two(of)), meaning)
 }
 
-const fn three(call: &'static str, of: &'static OfThree, meaning: &'static str) -> Function {
+const fn three(call: &'static str, of: &'static OfThree, meaning: &'static str) -> NamedFunction {
     function(call, Form::Fixed(3, Op::Three(of)), meaning)
 }
 
-const fn function(call: &'static str, form: Form, meaning: &'static str) -> Function {
-    Function { form, call, meaning }
+const fn function(call: &'static str, form: Form, meaning: &'static str) -> NamedFunction {
+    NamedFunction { form, call, meaning }
 }
 
 /// All functions, in the order of the help: the call, the value, its bounds, its derivative and its model
 /// where they are known, and the meaning.
 #[rustfmt::skip] // one line a function
-pub(super) static FUNCTIONS: &[Function] = &[
+pub(super) static FUNCTIONS: &[NamedFunction] = &[
     function("if(c, a, b)", Form::If, "a where c is true, else b"),
     function("abs(v)", Form::Fixed(1, Op::Abs), "size without sign"),
     one("sign(v)", &const { of_one(sign, bounds::sign) }, "-1, 0 or 1"),
@@ -290,7 +290,7 @@ pub fn functions() -> impl ExactSizeIterator<Item = (&'static str, &'static str)
     FUNCTIONS.iter().map(|f| (f.call, f.meaning))
 }
 
-pub(super) fn find_function(name: &str) -> Option<&'static Function> {
+pub(super) fn find_function(name: &str) -> Option<&'static NamedFunction> {
     FUNCTIONS.iter().find(|f| f.name() == name)
 }
 

@@ -10,7 +10,7 @@ pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Bounds of a gradient over a rectangle.
-pub(super) trait Slopes: Copy + PartialEq {
+pub(super) trait GradientBounds: Copy + PartialEq {
     /// The gradient of a function whose square is the value, or `()` if such gradients are not followed.
     type Root: Copy;
 
@@ -64,7 +64,7 @@ pub(super) fn are_known(along: &Along) -> bool {
     along.iter().all(|slope| slope.valid && !slope.has_infinity())
 }
 
-impl Slopes for Along {
+impl GradientBounds for Along {
     type Root = ();
 
     const NONE: Self = [ZERO; 2];
@@ -124,7 +124,7 @@ impl Gradient {
     }
 }
 
-impl Slopes for Gradient {
+impl GradientBounds for Gradient {
     type Root = Option<Self>;
 
     const NONE: Self = Self { along: Along::NONE, length: 0.0 };

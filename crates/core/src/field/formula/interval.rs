@@ -1,7 +1,7 @@
 //! Runs a compiled formula on intervals: bounds of its values over a rectangle.
 
 use super::functions::OfThree;
-use super::machine::{self, Values};
+use super::machine::{self, Enclosure};
 use super::program::{Op, Program};
 use crate::field::Bounds;
 use crate::geometry::Rect;
@@ -12,8 +12,8 @@ pub(super) fn bounds(program: &Program, rect: &Rect, third: Bounds) -> Bounds {
     machine::run(program, [x, y, third])
 }
 
-impl Values for Bounds {
-    fn of_bounds(bounds: Bounds) -> Self {
+impl Enclosure for Bounds {
+    fn from_bounds(bounds: Bounds) -> Self {
         bounds
     }
 

@@ -6,9 +6,9 @@ use crate::field::Bounds;
 
 /// A description of the values of a part of a formula over a rectangle: bounds, bounds with derivatives, or a
 /// model.
-pub(super) trait Values: Copy {
+pub(super) trait Enclosure: Copy {
     /// Returns the description that follows from bounds alone.
-    fn of_bounds(bounds: Bounds) -> Self;
+    fn from_bounds(bounds: Bounds) -> Self;
 
     /// Returns bounds of the values.
     fn bounds(&self) -> Bounds;
@@ -34,7 +34,7 @@ const TRUTH: Bounds = Bounds::new(0.0, 1.0);
 const TINY_STACK: usize = 4;
 
 /// Returns the description of the values of a program, from the descriptions of x, y and the third value.
-pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
+pub(super) fn run<V: Enclosure>(program: &Program, values: [V; 3]) -> V {
     let (slots, code) = (program.slots(), program.code());
     if slots <= TINY_STACK {
         run_on::<V, TINY_STACK>(code, values)
@@ -45,8 +45,8 @@ pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
     }
 }
 
-fn run_on<V: Values, const SLOTS: usize>(code: &[Op], [x, y, third]: [V; 3]) -> V {
-    let unknown = V::of_bounds(Bounds::ANYTHING);
+fn run_on<V: Enclosure, const SLOTS: usize>(code: &[Op], [x, y, third]: [V; 3]) -> V {
+    let unknown = V::from_bounds(Bounds::ANYTHING);
     Machine { stack: &mut [unknown; SLOTS], top: 0, x, y, third }.run(code, unknown)
 }
 
@@ -60,7 +60,7 @@ struct Machine<'a, V> {
     third: V,
 }
 
-impl<V: Values> Machine<'_, V> {
+impl<V: Enclosure> Machine<'_, V> {
     fn push(&mut self, value: V) {
         self.stack[self.top] = value;
         self.top += 1;
@@ -79,19 +79,19 @@ impl<V: Values> Machine<'_, V> {
         while let Some(&op) = code.get(at) {
             at += 1;
             match op {
-                Op::Number(value) => self.load(&mut acc, V::of_bounds(Bounds::one(value))),
+                Op::Number(value) => self.load(&mut acc, V::from_bounds(Bounds::one(value))),
                 Op::X => self.load(&mut acc, self.x),
                 Op::Y => self.load(&mut acc, self.y),
                 Op::Third => self.load(&mut acc, self.third),
                 Op::FirstLink(sign) => {
                     let left = self.pop();
-                    self.push(V::of_bounds(compared(sign, left.bounds(), acc.bounds())));
+                    self.push(V::from_bounds(compared(sign, left.bounds(), acc.bounds())));
                 }
                 Op::NextLink(sign) => {
                     let middle = self.pop();
                     let before = self.pop();
                     let holds = compared(sign, middle.bounds(), acc.bounds());
-                    self.push(V::of_bounds(before.bounds().times(holds)));
+                    self.push(V::from_bounds(before.bounds().times(holds)));
                 }
                 Op::Drop => acc = self.pop(),
                 Op::SkipIfZero(count) => {
@@ -123,13 +123,13 @@ impl<V: Values> Machine<'_, V> {
     /// Runs an operation on one value or two.
     fn operate(&mut self, op: Op, acc: V) -> V {
         match op {
-            Op::Not => V::of_bounds(truth(known_truth(acc.bounds()).map(|truth| !truth))),
-            Op::Truth => V::of_bounds(truth(known_truth(acc.bounds()))),
+            Op::Not => V::from_bounds(truth(known_truth(acc.bounds()).map(|truth| !truth))),
+            Op::Truth => V::from_bounds(truth(known_truth(acc.bounds()))),
             Op::Negate | Op::Abs | Op::Sqrt | Op::One(_) => V::one(op, acc),
             _ => {
                 let first = self.pop();
                 match sign_of(op) {
-                    Some(sign) => V::of_bounds(compared(sign, first.bounds(), acc.bounds())),
+                    Some(sign) => V::from_bounds(compared(sign, first.bounds(), acc.bounds())),
                     None => V::two(op, first, acc),
                 }
             }
@@ -166,7 +166,7 @@ impl<V: Values> Machine<'_, V> {
 
     /// Runs the right side of `and` or `or` if it may be needed, and returns the number of its instructions.
     fn decide(&mut self, right: &[Op], decides_if_true: bool, acc: &mut V) -> usize {
-        let decided = V::of_bounds(Bounds::one(f64::from(u8::from(decides_if_true))));
+        let decided = V::from_bounds(Bounds::one(f64::from(u8::from(decides_if_true))));
         match known_truth(acc.bounds()) {
             Some(left) if left == decides_if_true => *acc = decided,
             known => {

@@ -4,13 +4,13 @@ use std::f64::consts::{FRAC_PI_2, LN_2, LN_10};
 
 use super::functions::OfThree;
 use super::interval;
-use super::machine::Values;
+use super::machine::Enclosure;
 use super::program::Op;
 use crate::field::{Bounds, Quadratic};
 
-impl Values for Quadratic {
-    fn of_bounds(bounds: Bounds) -> Self {
-        Self::of_bounds(bounds)
+impl Enclosure for Quadratic {
+    fn from_bounds(bounds: Bounds) -> Self {
+        Self::from_bounds(bounds)
     }
 
     fn bounds(&self) -> Bounds {

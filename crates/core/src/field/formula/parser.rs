@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::error::{ParseError, quote};
 use super::functions::{
-    Form, Function, Noun, Third, coordinates, find_function, find_noun, instruction, suggestion,
+    Form, NamedFunction, Noun, Third, coordinates, find_function, find_noun, instruction, suggestion,
 };
 use super::lexer::{Lexer, Token};
 use super::program::{Compare, LARGE_STACK, Op, Program, run};
@@ -266,7 +266,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Reads a function's values in parentheses, and emits its instructions.
-    fn call(&mut self, function: &Function, name: Range<usize>) -> Result<Value, ParseError> {
+    fn call(&mut self, function: &NamedFunction, name: Range<usize>) -> Result<Value, ParseError> {
         let values = self.arguments(function.form)?;
         self.check_count(function, values.count, &name, values.end)?;
         match function.form {
@@ -311,7 +311,7 @@ impl<'a> Parser<'a> {
 
     fn check_count(
         &self,
-        function: &Function,
+        function: &NamedFunction,
         found: usize,
         name: &Range<usize>,
         end: usize,

@@ -4,8 +4,8 @@ use std::f64::consts::{LN_2, LN_10};
 
 use super::derivatives::{ONE, Varying};
 use super::function_bounds as bounds;
-use super::gradient::{Slopes, times};
-use super::machine::Values;
+use super::gradient::{GradientBounds, times};
+use super::machine::Enclosure;
 use super::program::Op;
 use crate::field::Bounds;
 
@@ -55,9 +55,9 @@ pub(super) fn tanh(_: Bounds, result: Bounds) -> Bounds {
 }
 
 /// Bounds the derivative of a power with a constant exponent: (aⁿ)′ = n aⁿ⁻¹ a′.
-pub(super) fn power<G: Slopes>(a: Varying<G>, n: Varying<G>, value: Bounds) -> Varying<G> {
+pub(super) fn power<G: GradientBounds>(a: Varying<G>, n: Varying<G>, value: Bounds) -> Varying<G> {
     if !n.is_constant() {
-        return Varying::of_bounds(value);
+        return Varying::from_bounds(value);
     }
     let less = bounds::power(a.value, Bounds::one(n.value.least - 1.0));
     let by_derivative = a.gradient_times(times(n.value, less));
@@ -66,7 +66,7 @@ pub(super) fn power<G: Slopes>(a: Varying<G>, n: Varying<G>, value: Bounds) -> V
 }
 
 /// √(a² + b²)′ = (a a′ + b b′) / √(a² + b²), with factors from −1 to 1.
-pub(super) fn hypot<G: Slopes>(a: Varying<G>, b: Varying<G>, value: Bounds) -> Varying<G> {
+pub(super) fn hypot<G: GradientBounds>(a: Varying<G>, b: Varying<G>, value: Bounds) -> Varying<G> {
     let gradient = |a: Varying<G>, b: Varying<G>| {
         let factor = |of: Bounds| of.over(value).intersection(Bounds::new(-1.0, 1.0));
         let by_factors = a.gradient_times(factor(a.value))?.plus(&b.gradient_times(factor(b.value))?);
@@ -80,9 +80,9 @@ const STEEPEST_OF_BELL: f64 = 0.606_530_659_712_634;
 
 /// Bounds the derivative of the bell curve with a constant s: exp(−(d/s)²/2)′ = −d / s² · exp(−(d/s)²/2) ·
 /// d′.
-pub(super) fn gauss<G: Slopes>(d: Varying<G>, s: Varying<G>, value: Bounds) -> Varying<G> {
+pub(super) fn gauss<G: GradientBounds>(d: Varying<G>, s: Varying<G>, value: Bounds) -> Varying<G> {
     if !s.is_constant() {
-        return Varying::of_bounds(value);
+        return Varying::from_bounds(value);
     }
     let most = STEEPEST_OF_BELL / s.value.least.abs();
     let factor = times(d.value.over(s.value.squared()).negated(), value);
@@ -90,18 +90,18 @@ pub(super) fn gauss<G: Slopes>(d: Varying<G>, s: Varying<G>, value: Bounds) -> V
     Varying::new(value, d.gradient_times(factor))
 }
 
-pub(super) fn clamp<G: Slopes>(v: Varying<G>, lo: Varying<G>, hi: Varying<G>) -> Option<G> {
+pub(super) fn clamp<G: GradientBounds>(v: Varying<G>, lo: Varying<G>, hi: Varying<G>) -> Option<G> {
     Varying::two(Op::Min, Varying::two(Op::Max, v, lo), hi).gradient
 }
 
-pub(super) fn mix<G: Slopes>(a: Varying<G>, b: Varying<G>, t: Varying<G>) -> Option<G> {
-    let rest = Varying::two(Op::Subtract, Varying::of_bounds(ONE), t);
+pub(super) fn mix<G: GradientBounds>(a: Varying<G>, b: Varying<G>, t: Varying<G>) -> Option<G> {
+    let rest = Varying::two(Op::Subtract, Varying::from_bounds(ONE), t);
     let [first, second] = [(a, rest), (b, t)].map(|(v, share)| Varying::two(Op::Multiply, v, share));
     Some(first.gradient?.plus(&second.gradient?))
 }
 
 /// Bounds the derivative of the smooth step with constant limits: 6 t (1 − t) / (hi − lo) for the share t.
-pub(super) fn smoothstep<G: Slopes>(lo: Varying<G>, hi: Varying<G>, v: Varying<G>) -> Option<G> {
+pub(super) fn smoothstep<G: GradientBounds>(lo: Varying<G>, hi: Varying<G>, v: Varying<G>) -> Option<G> {
     let span = hi.value.minus(lo.value);
     if !lo.is_constant() || !hi.is_constant() || span.has_zero() {
         return None;

@@ -70,7 +70,8 @@ impl Clipped {
     }
 }
 
-/// A polynomial is nearly flat in one direction if it bends so much less there than in the other.
+/// A polynomial is nearly flat in one direction if its curvature there is below this share of that in the
+/// other.
 const NEARLY_FLAT: f64 = 1e-6;
 
 /// A point so far beyond an edge still counts as in a polygon.

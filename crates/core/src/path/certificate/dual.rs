@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::conic_program::ConicSolution;
 use super::minorant::Minorant;
-use super::programme::ProgrammeSolution;
 use super::quadratic::QuadraticSpace;
 
 /// A continuous, piecewise quadratic function v on triangles, and an affine function ℓ in each, below the
@@ -36,7 +36,7 @@ impl DualFunction {
     pub(super) fn new(
         space: &QuadraticSpace,
         minorants: &[Minorant],
-        solution: &ProgrammeSolution,
+        solution: &ConicSolution,
         scale: f64,
     ) -> Self {
         let mut nodes = vec![DVec2::ZERO; space.nodes];

@@ -20,7 +20,7 @@ const MOST_HALVINGS: u32 = 5;
 
 /// A triangle beside an edge.
 #[derive(Clone, Copy)]
-struct Side {
+struct EdgeSide {
     element: usize,
     /// The places of the ends of the edge among its corners, in an order that both triangles share.
     ends: [usize; 2],
@@ -35,13 +35,13 @@ pub(super) fn lower_at_edges(
 ) {
     for sides in edges(space) {
         let sides = sides.into_iter().flatten();
-        let along = |side: &Side, minorants: &[Minorant]| {
+        let along = |side: &EdgeSide, minorants: &[Minorant]| {
             side.ends.map(|end| minorants[side.element].at_corners[end])
         };
-        let sum = |side: &Side| along(side, minorants).iter().sum::<f64>();
+        let sum = |side: &EdgeSide| along(side, minorants).iter().sum::<f64>();
         let Some(lower) = sides.min_by(|a, b| sum(a).total_cmp(&sum(b))) else { continue };
         let corners = space.elements[lower.element].flat.corners;
-        // What is next to a node belongs to the node: no path has a length there.
+        // The neighbourhood of a node belongs to the node: no path has a length there.
         let [a, b] = lower.ends.map(|end| corners[end]);
         let cap = (b - a) * (8.0 * inset / a.distance(b)).min(0.25);
         let ends = [a + cap, b - cap];
@@ -53,14 +53,14 @@ pub(super) fn lower_at_edges(
 }
 
 /// Returns the triangles beside each edge: one or two.
-fn edges(space: &QuadraticSpace) -> Vec<[Option<Side>; 2]> {
+fn edges(space: &QuadraticSpace) -> Vec<[Option<EdgeSide>; 2]> {
     let mut edges = vec![[None; 2]; space.values - space.nodes];
     for (element, triangle) in space.elements.iter().enumerate() {
         for opposite in 0..3 {
             let mut ends = [(opposite + 1) % 3, (opposite + 2) % 3];
             ends.sort_by_key(|&end| triangle.values[end]);
             let sides = &mut edges[triangle.values[3 + opposite] as usize - space.nodes];
-            sides[usize::from(sides[0].is_some())] = Some(Side { element, ends });
+            sides[usize::from(sides[0].is_some())] = Some(EdgeSide { element, ends });
         }
     }
     edges
@@ -84,7 +84,7 @@ fn factor_below(
         return 1.0;
     }
     if let Some(slopes) = cost.derivatives(&strip) {
-        // Without a jump, what holds beside the strip holds in it but for the rise on so short a way.
+        // Without a jump, what holds beside the strip holds in it, up to the rise over its small width.
         let steepest: f64 = slopes.iter().map(|slope| slope.least.abs().max(slope.greatest.abs())).sum();
         let own = (at_a - at_b).abs() / a.distance(b);
         let rounded = 1.0 - 4.0 * inset * (steepest + own) / at_a.min(at_b);

@@ -16,8 +16,8 @@ const MOST_SEARCHES: usize = 4;
 
 /// Certificates of all legs of a path, from waypoint to waypoint.
 ///
-/// Where a leg ends short of the requested width, a better path may exist: it is sought on the mesh of
-/// [`Self::with_search`], made as fine as the certificate's mesh is, and the certificate goes on with it.
+/// Where a leg ends short of the requested width, a better path may exist: it is searched for on the mesh of
+/// [`Self::with_search`], made as fine as the certificate's mesh, and the certificate continues with it.
 #[derive(Clone)]
 pub struct PathCertificate {
     legs: Vec<Leg>,
@@ -68,7 +68,7 @@ impl PathCertificate {
         let leg = |(number, ends): (usize, &[usize])| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
             let walls = solution.walls.get(number).into_iter().cloned().collect();
-            let figures = Solution::of(path.clone(), &*task.cost, TOLERANCE * task.width);
+            let figures = Solution::new(path.clone(), &*task.cost, TOLERANCE * task.width);
             let solution = Solution { walls, ..figures };
             let upper = solution.upper;
             let certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })
@@ -130,12 +130,12 @@ impl PathCertificate {
         self.widest(|_| true).and_then(|leg| self.legs[leg].certificate.end())
     }
 
-    /// Returns how many programmes were solved.
-    pub fn programmes(&self) -> usize {
-        self.legs.iter().map(|leg| leg.certificate.programmes()).sum()
+    /// Returns how many programs were solved.
+    pub fn programs(&self) -> usize {
+        self.legs.iter().map(|leg| leg.certificate.programs()).sum()
     }
 
-    /// Returns how many nodes the meshes of the last programmes had.
+    /// Returns how many nodes the meshes of the last programs had.
     pub fn nodes(&self) -> usize {
         self.legs.iter().map(|leg| leg.certificate.nodes()).sum()
     }
@@ -148,7 +148,7 @@ impl PathCertificate {
         self
     }
 
-    /// Solves one programme, or takes a step of the search for a better path, for the leg with the widest
+    /// Solves one program, or takes a step of the search for a better path, for the leg with the widest
     /// interval. Returns why all ended, or `None` if it goes on.
     ///
     /// # Errors
@@ -158,7 +158,7 @@ impl PathCertificate {
         Ok(self.end())
     }
 
-    /// Does a slice of [`Self::advance`]. It is done once a programme is solved or a step of a search taken,
+    /// Does a slice of [`Self::advance`]. It is done once a program is solved or a step of a search taken,
     /// or there is nothing more to do.
     ///
     /// # Errors
@@ -177,7 +177,7 @@ impl PathCertificate {
         Ok(Progress::Done)
     }
 
-    /// Returns whether a leg can be certified further, or a better path be sought for it.
+    /// Returns whether a leg can be certified further, or whether a better path can be searched for.
     fn has_more(&self, leg: &Leg) -> bool {
         match leg.certificate.end() {
             None => true,

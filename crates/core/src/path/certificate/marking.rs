@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
+use super::conic_program::ConicSolution;
 use super::minorant::Minorant;
-use super::programme::ProgrammeSolution;
 use super::quadratic::QuadraticSpace;
-use super::setup::Kept;
+use super::setup::ReachableTriangles;
 
-/// One round aims at leaving at least this part of what is lost: estimates are too rough to aim farther.
+/// One round aims to leave at least this part of what is lost: estimates are too rough for more.
 const LEAST_LEFT: f64 = 0.12;
 /// One round aims at no more than this part.
 const MOST_LEFT: f64 = 0.7;
@@ -34,8 +34,8 @@ const SEARCH_STEPS: usize = 60;
 pub(super) fn estimates(
     space: &QuadraticSpace,
     minorants: &[Minorant],
-    solution: &ProgrammeSolution,
-    kept: &Kept,
+    solution: &ConicSolution,
+    kept: &ReachableTriangles,
 ) -> Vec<f64> {
     let distance =
         space.elements[kept.start].flat.centroid().distance(space.elements[kept.goal].flat.centroid());
@@ -58,11 +58,11 @@ pub(super) fn estimates(
 ///
 /// One bisection divides what a triangle on the path loses by about 2^(3/2): its part of the path is shorter
 /// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)
-/// triangles on it. The fewest triangles result where all lose equally much. Where the cost jumps, a
+/// triangles on it. The number of triangles is least where all lose equally. Where the cost jumps, a
 /// bisection gains less.
 ///
 /// A goal that takes many more triangles is approached in several rounds: estimates improve from round to
-/// round, and one large programme costs more than several small ones. No round makes more than `most`
+/// round, and one large program costs more than several small ones. No round makes more than `most`
 /// triangles, unless the goal is to keep [`MOST_LEFT`] of what is lost.
 pub(super) fn bisections(estimates: &[f64], minorants: &[Minorant], goal: f64, most: usize) -> Vec<u32> {
     let all: f64 = estimates.iter().sum();

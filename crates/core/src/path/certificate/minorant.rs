@@ -14,7 +14,7 @@ use std::collections::BinaryHeap;
 use glam::{DVec2, dvec2};
 
 use super::clipped::{Clipped, clipped, least_on_polygon, quarters};
-use super::triangle::{FlatTriangle, Plane};
+use super::triangle::{AffineFunction, FlatTriangle};
 use crate::geometry::Rect;
 use crate::path::{CostDensity, CostModel};
 
@@ -43,7 +43,7 @@ impl Minorant {
     /// Returns, of the affine functions tried, the one with the greatest mean. It is below the density at all
     /// points that are farther than `inset` from the edges.
     pub(super) fn new(cost: &dyn CostDensity, triangle: &FlatTriangle, inset: f64) -> Self {
-        let samples = Samples::new(cost, triangle);
+        let samples = DensitySamples::new(cost, triangle);
         let inner = triangle.shrunk(inset);
         let tilted = Self::tilted(cost, triangle, &inner, &samples);
         // No constant is above the least sample.
@@ -52,7 +52,7 @@ impl Minorant {
         {
             return tilted;
         }
-        let flat = Plane { value: 0.0, slope: DVec2::ZERO, origin: triangle.centroid() };
+        let flat = AffineFunction { value: 0.0, slope: DVec2::ZERO, origin: triangle.centroid() };
         let least = MinorantSearch::new(cost, &inner, flat, samples.least()).bound(0.002 * samples.least());
         match tilted {
             Some(tilted) if tilted.affine_mean() > least => Self { least, ..tilted },
@@ -60,12 +60,12 @@ impl Minorant {
         }
     }
 
-    /// Returns the affine function that a plane fitted to the samples gives; `None` where it is of no use.
+    /// Returns the affine function from a plane fitted to the samples; `None` where it is useless.
     fn tilted(
         cost: &dyn CostDensity,
         triangle: &FlatTriangle,
         inner: &FlatTriangle,
-        samples: &Samples,
+        samples: &DensitySamples,
     ) -> Option<Self> {
         let mean = samples.mean(samples.least());
         if samples.spread() <= 1e-9 * mean {
@@ -85,7 +85,7 @@ impl Minorant {
         (least >= LOWEST * samples.least()).then_some(Self { at_corners, mean, least })
     }
 
-    /// Limits the lower bound of the cost to `most`. Values far above those on the best path make a programme
+    /// Limits the lower bound of the cost to `most`. Values far above those on the best path make a program
     /// ill conditioned.
     pub(super) fn at_most(self, most: f64) -> Self {
         let greatest = self.at_corners.iter().copied().fold(0.0, f64::max);
@@ -116,9 +116,9 @@ impl Minorant {
 }
 
 /// Values of the density at points inside a triangle.
-struct Samples(Vec<(DVec2, f64)>);
+struct DensitySamples(Vec<(DVec2, f64)>);
 
-impl Samples {
+impl DensitySamples {
     fn new(cost: &dyn CostDensity, triangle: &FlatTriangle) -> Self {
         let most = (SAMPLES - 1) as f64;
         let rows = (0..SAMPLES).flat_map(|i| (0..SAMPLES - i).map(move |j| (i, j)));
@@ -145,12 +145,12 @@ impl Samples {
         self.0.iter().map(|(_, value)| finite(*value)).sum::<f64>() / self.0.len() as f64
     }
 
-    fn least_above(&self, plane: &Plane) -> f64 {
+    fn least_above(&self, plane: &AffineFunction) -> f64 {
         self.0.iter().fold(f64::INFINITY, |least, (point, value)| least.min(value - plane.at(*point)))
     }
 
     /// Returns the plane with the least squares of deviations; `None` where it is not finite.
-    fn fitted_plane(&self, origin: DVec2) -> Option<Plane> {
+    fn fitted_plane(&self, origin: DVec2) -> Option<AffineFunction> {
         let count = self.0.len() as f64;
         // The samples lie evenly around the centroid: the value is the mean, and the slope has two equations.
         let value = self.0.iter().map(|(_, value)| value).sum::<f64>() / count;
@@ -163,7 +163,7 @@ impl Samples {
             right += offset * (sample - value);
         }
         let slope = dvec2(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / (xx * yy - xy * xy);
-        (value.is_finite() && slope.is_finite()).then_some(Plane { value, slope, origin })
+        (value.is_finite() && slope.is_finite()).then_some(AffineFunction { value, slope, origin })
     }
 }
 
@@ -171,7 +171,7 @@ impl Samples {
 struct MinorantSearch<'a> {
     cost: &'a dyn CostDensity,
     triangle: &'a FlatTriangle,
-    plane: Plane,
+    plane: AffineFunction,
     /// A value that is attained, as far as samples tell.
     attained: f64,
     open: BinaryHeap<BoundedPart>,
@@ -188,13 +188,17 @@ struct BoundedPart {
 }
 
 impl<'a> MinorantSearch<'a> {
-    fn new(cost: &'a dyn CostDensity, triangle: &'a FlatTriangle, plane: Plane, attained: f64) -> Self {
+    fn new(
+        cost: &'a dyn CostDensity,
+        triangle: &'a FlatTriangle,
+        plane: AffineFunction,
+        attained: f64,
+    ) -> Self {
         let (open, looked_at, tolerance) = (BinaryHeap::new(), 0, 0.0);
         Self { cost, triangle, plane, attained, open, looked_at, tolerance }
     }
 
-    /// Returns a lower bound, within `tolerance` of the least value where the allowance of rectangles is
-    /// enough.
+    /// Returns a lower bound, within `tolerance` of the least value if the budget of rectangles suffices.
     fn bound(mut self, tolerance: f64) -> f64 {
         self.tolerance = tolerance;
         let [a, b, c] = self.triangle.corners;
@@ -208,7 +212,7 @@ impl<'a> MinorantSearch<'a> {
                 self.add(quarter, part.bound);
             }
         }
-        // No rectangle has a part of the triangle, so it is flat: nothing is known.
+        // No rectangle contains a part of the triangle, so it is degenerate: nothing is known.
         f64::NEG_INFINITY
     }
 
@@ -266,7 +270,8 @@ impl<'a> MinorantSearch<'a> {
         (!bound.is_nan()).then_some(bound)
     }
 
-    /// Returns the mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
+    /// Returns the bound by the mean value theorem, f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density
+    /// minus the plane.
     fn bound_by_slopes(&self, rectangle: &Rect) -> f64 {
         let Some(slopes) = self.cost.derivatives(rectangle) else { return f64::NEG_INFINITY };
         let middle = rectangle.center();

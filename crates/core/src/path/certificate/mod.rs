@@ -1,16 +1,18 @@
-//! A proven lower bound of what any path costs: the best path is within so many percent.
+//! A proven lower bound of what any path costs, which tells by how many percent at most the best known path
+//! exceeds the least cost.
 //!
-//! For a function v with |∇v| ≤ c, no path from start to goal costs less than v(goal) − v(start). The
-//! greatest such difference is the least cost: that is the dual. [`Certificate`] maximizes it over
-//! continuous, piecewise quadratic functions on a small mesh of its own, as a second-order cone programme,
-//! and refines that mesh where the solution says that the bound loses most.
+//! Let v be a subsolution of the eikonal equation, |∇v| ≤ c. Then no path from start to goal costs less than
+//! v(goal) − v(start): this is weak duality. The greatest such difference is the least cost (strong duality).
+//! [`Certificate`] maximizes it over continuous, piecewise quadratic functions on a small mesh of its own, as
+//! a second-order cone program, and refines that mesh where the solution says that the bound loses most. Such
+//! a v is a dual certificate: whoever has it can check the bound.
 //!
 //! ```text
 //! setup       mesh with h ≤ max(h_min, 0.7 · distance from the path)
 //!   ↓
 //! minorant    for each triangle an affine function ℓ ≤ c     ◀──────────┐
 //! edges       on each edge, too, by one of the triangles beside it      │
-//! programme   max v(goal) − v(start), |∇v| ≤ ℓ at all corners           │
+//! program     max v(goal) − v(start), |∇v| ≤ ℓ at all corners           │
 //! proof       λ = min ℓ / |∇v|, bound = λ (v(goal) − v(start))          │
 //! marking     what each triangle loses, from the flow of the dual ──────┘ bisect
 //! ```
@@ -32,8 +34,8 @@
 //! 4. Only triangles wholly outside the domain are left out. The others allow more paths than the domain has:
 //!    the bound is still one. The known path must stay in the domain for its cost to be an upper bound.
 //!
-//! Nothing is taken from the solver on trust: λ and the difference are computed from the values of v, and
-//! rounded down. A programme that fails leaves the bound of those before.
+//! The solver is not trusted: λ and the difference are computed from the values of v, and rounded down. If a
+//! program fails, the bound of the previous ones stays.
 
 mod clipped;
 mod dual;
@@ -41,7 +43,7 @@ mod edges;
 mod legs;
 mod marking;
 mod minorant;
-mod programme;
+mod conic_program;
 mod proof;
 mod quadratic;
 mod setup;
@@ -58,13 +60,13 @@ use glam::DVec2;
 use super::{Passage, PathError, PathMesh};
 use crate::geometry::Rect;
 use crate::mesh::{Limits, Mesh, Progress};
+use conic_program::{ConicProgram, ConicSolution, Unsolved};
 use marking::{bisections, estimates};
 use minorant::Minorant;
-use programme::{Programme, ProgrammeSolution, Unsolved};
 use proof::proven_gain;
 use quadratic::{QuadraticElement, QuadraticSpace};
 use triangle::FlatTriangle;
-use under_way::{ProgrammeUnderWay, Stage, UnderWay};
+use under_way::{ProgramStage, ProgramUnderWay, UnderWay};
 
 pub use dual::DualFunction;
 pub use legs::{LegProof, PathCertificate};
@@ -72,7 +74,7 @@ pub use task::{CertificateEnd, CertificateTask, Placement, PlacementTest};
 
 /// Each round aims to reduce the interval by this share of the requested width.
 const AIM: f64 = 0.65;
-/// The accuracy to which each programme is solved, as a share of the requested width.
+/// The accuracy to which each program is solved, as a share of the requested width.
 const ACCURACY: f64 = 0.05;
 /// The most triangles that are added to the mesh on which a better path is searched.
 const MOST_ADDED: usize = 60_000;
@@ -81,20 +83,20 @@ const MOST_ADDED: usize = 60_000;
 const SHORT_DETOUR: f64 = 0.1;
 /// The width of the strip on each side of an edge, in ulps of the largest coordinate.
 const STRIP_ULPS: f64 = 16.0;
-/// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
+/// The gradient grows by at most this factor times the width of a strip, as a share of the smallest triangle.
 const STRIP_LOSS: f64 = 20.0;
-/// The most work of a certificate, in nodes times steps of the solver: some ten seconds. A programme that
+/// The most work of a certificate, in nodes times steps of the solver: some ten seconds. A program that
 /// would exceed it is not started. It is a count, so that every machine proves the same.
 const MOST_WORK: u64 = 700_000;
-/// The number of steps that the solver usually takes for a programme.
+/// The number of steps that the solver usually takes for a program.
 const USUAL_STEPS: u64 = 25;
-/// Number of programmes in a row that hardly raise the bound after which the work ends.
+/// Number of programs in a row that hardly raise the bound after which the work ends.
 const MOST_IDLE: usize = 3;
 
-/// Raises the lower bound of what any path costs, programme by programme.
+/// Raises the lower bound of what any path costs, program by program.
 ///
-/// The state is kept between two programmes, so that it can run on a thread with progress, be told to stop,
-/// and go on when a better path is known.
+/// The state is kept between two programs, so that the work can run on a thread, report progress, be stopped,
+/// and continue when a better path is known.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -116,6 +118,7 @@ const MOST_IDLE: usize = 3;
 /// assert!(certificate.lower() <= 1.0 && certificate.lower() >= 0.999);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias = "dual certificate")]
 #[derive(Clone)]
 pub struct Certificate {
     task: CertificateTask,
@@ -125,11 +128,11 @@ pub struct Certificate {
     lower: f64,
     /// What proves the lower bound.
     dual: Option<Arc<DualFunction>>,
-    programmes: usize,
+    programs: usize,
     nodes: usize,
-    /// The work of all programmes so far: nodes times steps of the solver.
+    /// The work of all programs so far: nodes times steps of the solver.
     work: u64,
-    /// Programmes in a row that hardly raised the bound.
+    /// Programs in a row that hardly raised the bound.
     idle: usize,
     end: Option<CertificateEnd>,
     stop: Arc<AtomicBool>,
@@ -137,7 +140,7 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Returns the work for a task. The first bound comes with the first programme.
+    /// Returns the work for a task. The first bound comes with the first program.
     ///
     /// # Errors
     /// Fails when start or goal lie outside the domain or apart, or the grid is too fine for a certificate.
@@ -152,7 +155,7 @@ impl Certificate {
             minorants: Vec::new(),
             lower: 0.0,
             dual: None,
-            programmes: 0,
+            programs: 0,
             nodes: 0,
             work: 0,
             idle: 0,
@@ -183,12 +186,12 @@ impl Certificate {
         if self.task.upper > 0.0 { (self.task.upper - self.lower).max(0.0) / self.task.upper } else { 0.0 }
     }
 
-    /// Returns how many programmes were solved.
-    pub fn programmes(&self) -> usize {
-        self.programmes
+    /// Returns how many programs were solved.
+    pub fn programs(&self) -> usize {
+        self.programs
     }
 
-    /// Returns how many nodes the mesh of the last programme had.
+    /// Returns how many nodes the mesh of the last program had.
     pub fn nodes(&self) -> usize {
         self.nodes
     }
@@ -198,13 +201,13 @@ impl Certificate {
         self.end
     }
 
-    /// Set to true from any thread, it stops the programme under way within one of its iterations.
+    /// Set to true from any thread, it stops the program under way within one of its iterations.
     /// [`Self::advance`] then returns at once, and does nothing until it is false again.
     pub fn stop_signal(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.stop)
     }
 
-    /// A better path is known: it becomes the upper bound, and work that had ended may go on.
+    /// Takes a better path, which becomes the upper bound: work that had ended may continue.
     pub fn improve(&mut self, path: Vec<DVec2>, upper: f64) {
         let joins = [path.first(), path.last()] == [self.task.path.first(), self.task.path.last()];
         if joins && upper < self.task.upper && upper > 0.0 {
@@ -216,7 +219,7 @@ impl Certificate {
         }
     }
 
-    /// Solves one programme, and refines the mesh for the next. Returns why it ended, or `None` if it goes
+    /// Solves one program, and refines the mesh for the next. Returns why it ended, or `None` if it goes
     /// on.
     ///
     /// # Errors
@@ -227,7 +230,7 @@ impl Certificate {
         Ok(self.end)
     }
 
-    /// Does a slice of [`Self::advance`]: some milliseconds on one thread, except that the programme is solved
+    /// Does a slice of [`Self::advance`]: some milliseconds on one thread, except that the program is solved
     /// in one. It is done once the mesh is refined, or the work has ended or was told to stop.
     ///
     /// # Errors
@@ -237,32 +240,33 @@ impl Certificate {
             self.under_way = UnderWay::default();
             return Ok(Progress::Done);
         }
-        let Some((work, stage)) = self.under_way.take() else { return self.begin_programme() };
+        let Some((work, stage)) = self.under_way.take() else { return self.begin_program() };
         let next = match stage {
-            Stage::Minorants(mut found) => match self.find_minorants(&work, &mut found) {
-                Progress::More => Stage::Minorants(found),
-                Progress::Done => Stage::Edges(found),
+            ProgramStage::Minorants(mut found) => match self.find_minorants(&work, &mut found) {
+                Progress::More => ProgramStage::Minorants(found),
+                Progress::Done => ProgramStage::Edges(found),
             },
-            Stage::Edges(found) => Stage::Solve(self.minorants_of(&work.space, found)?),
-            Stage::Solve(minorants) => match self.programme(&work, &minorants).solve(self.stop_signal()) {
-                Ok(solution) => Stage::Solved(minorants, solution),
+            ProgramStage::Edges(found) => ProgramStage::Solve(self.minorants_of(&work.space, found)?),
+            ProgramStage::Solve(minorants) => match self.program(&work, &minorants).solve(self.stop_signal())
+            {
+                Ok(solution) => ProgramStage::Solved(minorants, solution),
                 Err(Unsolved::Stopped) => return Ok(Progress::Done),
                 Err(Unsolved::Failed) => {
                     self.end = Some(CertificateEnd::SolverFailed);
                     return Ok(Progress::Done);
                 }
             },
-            Stage::Solved(minorants, solution) => {
+            ProgramStage::Solved(minorants, solution) => {
                 self.take(&work, &minorants, &solution);
                 return Ok(Progress::Done);
             }
         };
-        self.under_way = UnderWay::of(work, next);
+        self.under_way = UnderWay::new(work, next);
         Ok(Progress::More)
     }
 
-    /// Finds the triangles of the next programme.
-    fn begin_programme(&mut self) -> Result<Progress, PathError> {
+    /// Finds the triangles of the next program.
+    fn begin_program(&mut self) -> Result<Progress, PathError> {
         let kept = setup::reachable(&self.mesh, &self.task)?;
         let space = QuadraticSpace::new(&self.mesh, &kept.triangles);
         if self.work + (space.nodes as u64) * USUAL_STEPS > MOST_WORK {
@@ -271,14 +275,14 @@ impl Certificate {
         }
         self.minorants.resize(self.mesh.raw_triangle_count(), None);
         let gain = gain_weights(&space.elements[kept.start], &space.elements[kept.goal], &self.task);
-        let next = Stage::Minorants(Vec::with_capacity(space.elements.len()));
-        self.under_way = UnderWay::of(ProgrammeUnderWay { kept, space, gain }, next);
+        let next = ProgramStage::Minorants(Vec::with_capacity(space.elements.len()));
+        self.under_way = UnderWay::new(ProgramUnderWay { kept, space, gain }, next);
         Ok(Progress::More)
     }
 
-    fn programme<'a>(&self, work: &'a ProgrammeUnderWay, minorants: &'a [Minorant]) -> Programme<'a> {
-        let ProgrammeUnderWay { kept, space, gain } = work;
-        Programme {
+    fn program<'a>(&self, work: &'a ProgramUnderWay, minorants: &'a [Minorant]) -> ConicProgram<'a> {
+        let ProgramUnderWay { kept, space, gain } = work;
+        ConicProgram {
             space,
             minorants,
             gain,
@@ -288,10 +292,10 @@ impl Certificate {
         }
     }
 
-    /// Takes the bound of a solution, and refines the mesh for the next programme.
-    fn take(&mut self, work: &ProgrammeUnderWay, minorants: &[Minorant], solution: &ProgrammeSolution) {
-        let ProgrammeUnderWay { kept, space, gain } = work;
-        self.programmes += 1;
+    /// Takes the bound of a solution, and refines the mesh for the next program.
+    fn take(&mut self, work: &ProgramUnderWay, minorants: &[Minorant], solution: &ConicSolution) {
+        let ProgramUnderWay { kept, space, gain } = work;
+        self.programs += 1;
         self.nodes = space.nodes;
         self.work += (space.nodes as u64) * u64::from(solution.steps);
         let before = self.width();
@@ -309,14 +313,14 @@ impl Certificate {
         }
     }
 
-    /// `before` is the width before the last programme, `lost` what the estimates say of the width now.
+    /// `before` is the width before the last program, `lost` what the estimates say of the width now.
     fn reason_to_end(&mut self, before: f64, lost: f64) -> Option<CertificateEnd> {
         let width = self.width();
         if width <= self.task.width {
             return Some(CertificateEnd::Reached);
         }
         self.idle = if width < 0.98 * before { 0 } else { self.idle + 1 };
-        // Even a bound that loses nothing would not reach the width; estimates may be off by a factor of 2.
+        // Even a lossless bound would not reach the width; estimates may be off by a factor of 2.
         let upper_limits = width - 2.0 * lost > self.task.width;
         if self.idle >= MOST_IDLE || (upper_limits && lost < 0.5 * self.task.width) {
             let reason =
@@ -333,7 +337,7 @@ impl Certificate {
         let aim = (AIM * (self.task.width - fixed)).min(0.5 * lost);
         let deepest = self.mesh.lattice().deepest_level();
         let mut wanted: Vec<u32> = self.mesh.raw_triangles().iter().map(|t| t.level()).collect();
-        // There are twice as many triangles as nodes, and the last programme may have some more.
+        // There are twice as many triangles as nodes, and the last program may have some more.
         let most = 5 * self.task.most_nodes / 2;
         let bisections = bisections(estimates, minorants, aim * self.task.upper, most);
         for (element, more) in space.elements.iter().zip(bisections) {

@@ -85,7 +85,7 @@ impl QuadraticElement {
         [(self.values[corner], -3.0), (self.values[middle], 4.0), (self.values[other], -1.0)]
     }
 
-    /// Returns an orthonormal frame at a corner that makes the rows of a programme sparse: one axis along an
+    /// Returns an orthonormal frame at a corner that makes the rows of a program sparse: one axis along an
     /// edge.
     pub(super) fn frame(&self, corner: usize) -> CornerFrame {
         let [first, second] =

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::task::{CertificateTask, Placement};
 use super::triangle::FlatTriangle;
 use crate::mesh::{Limits, Mesh, TriangleId};
-use crate::path::parts::Parts;
+use crate::path::disjoint_sets::DisjointSets;
 use crate::path::{PathError, Waypoint};
 
 /// The largest triangles on the path, as a part of the domain's longer side.
@@ -46,7 +46,7 @@ pub(super) fn distance_from(path: &[DVec2], point: DVec2) -> f64 {
 }
 
 /// The triangles that a path from the start can reach, over edges or nodes.
-pub(super) struct Kept {
+pub(super) struct ReachableTriangles {
     pub triangles: Vec<TriangleId>,
     /// For each of them whether the boundary may pass through it.
     pub cut: Vec<bool>,
@@ -57,9 +57,9 @@ pub(super) struct Kept {
 }
 
 /// Finds the triangles that are not wholly outside and belong together with the start's.
-pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<Kept, PathError> {
+pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<ReachableTriangles, PathError> {
     let placements: Vec<Placement> = mesh.raw_elements().map(|element| (task.placement)(&element)).collect();
-    let mut parts = Parts::new(mesh.raw_nodes().len());
+    let mut parts = DisjointSets::new(mesh.raw_nodes().len());
     for (triangle, placement) in mesh.raw_triangles().iter().zip(&placements) {
         if *placement != Placement::Outside {
             let [a, b, c] = triangle.vertices.map(|node| node.index());
@@ -92,5 +92,5 @@ pub(super) fn reachable(mesh: &Mesh, task: &CertificateTask) -> Result<Kept, Pat
         return Err(PathError::Apart { from: Waypoint::Start, to: Waypoint::Goal });
     };
     let cut = triangles.iter().map(|id| placements[id.index()] == Placement::Cut).collect();
-    Ok(Kept { triangles, cut, start, goal })
+    Ok(ReachableTriangles { triangles, cut, start, goal })
 }

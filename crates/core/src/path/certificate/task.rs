@@ -46,7 +46,7 @@ pub struct CertificateTask {
     pub upper: f64,
     /// The requested width: (upper − lower) / upper.
     pub width: f64,
-    /// Number of nodes of the largest programme. The work also ends before a programme that would take too
+    /// Number of nodes of the largest program. The work also ends before a program that would take too
     /// long.
     pub most_nodes: usize,
 }
@@ -57,13 +57,13 @@ pub struct CertificateTask {
 pub enum CertificateEnd {
     /// The requested width is reached.
     Reached,
-    /// The lower bound has nearly the least cost, as far as estimates tell: only a better path helps.
+    /// By the estimates, the lower bound is nearly the least cost: only a better path helps.
     UpperBoundLimits,
     /// Finer triangles no longer raise the bound.
     NoMoreGain,
-    /// The mesh has as many nodes as the task allows, or the next programme would take too much work.
+    /// The mesh has as many nodes as the task allows, or the next program would take too much work.
     TooLarge,
-    /// The solver failed. The bound is that of the programmes before.
+    /// The solver failed. The bound is that of the programs before.
     SolverFailed,
 }
 
@@ -95,7 +95,7 @@ impl CertificateTask {
     /// `width` the requested part of it.
     ///
     /// # Errors
-    /// Fails when the rectangle is none.
+    /// Fails when the rectangle is not a proper one.
     pub fn in_rectangle(
         bounds: Rect,
         cost: Arc<dyn CostDensity>,
@@ -111,7 +111,7 @@ impl CertificateTask {
     /// Returns a coarse grid for a certificate.
     ///
     /// # Errors
-    /// Fails when the rectangle is none.
+    /// Fails when the rectangle is not a proper one.
     pub fn lattice_over(bounds: Rect) -> Result<Lattice, GridError> {
         Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
     }
@@ -121,7 +121,7 @@ impl CertificateTask {
     /// pixels. `size` is [columns, rows].
     ///
     /// # Errors
-    /// Fails when the rectangle is none.
+    /// Fails when the rectangle is not a proper one.
     pub fn lattice_along_pixels(bounds: Rect, size: [u32; 2]) -> Result<Lattice, GridError> {
         let mut cells = size[0].max(size[1]).max(1);
         while cells.is_multiple_of(2) && f64::from(cells) > CELLS {

@@ -10,14 +10,14 @@ pub(super) struct FlatTriangle {
 
 /// An affine function of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Plane {
+pub(super) struct AffineFunction {
     /// The value at `origin`.
     pub value: f64,
     pub slope: DVec2,
     pub origin: DVec2,
 }
 
-impl Plane {
+impl AffineFunction {
     pub(super) fn at(&self, point: DVec2) -> f64 {
         self.value + self.slope.dot(point - self.origin)
     }

@@ -1,50 +1,50 @@
-//! A programme of a certificate, from its triangles to its solution.
+//! A program of a certificate, from its triangles to its solution.
 
 use rayon::prelude::*;
 
 use super::Certificate;
+use super::conic_program::ConicSolution;
 use super::edges::lower_at_edges;
 use super::minorant::Minorant;
-use super::programme::ProgrammeSolution;
 use super::quadratic::{QuadraticElement, QuadraticSpace};
-use super::setup::Kept;
+use super::setup::ReachableTriangles;
 use crate::mesh::Progress;
 use crate::path::PathError;
 
-/// A thread computes the minorants of so many triangles at a time.
+/// Number of triangles whose minorants a thread computes at a time.
 const TOGETHER: usize = 16;
-/// So many times as many for each thread are computed in a slice.
+/// Number of such groups per thread that a slice computes.
 const IN_SLICE: usize = 4;
 
-/// A programme that is not solved yet, and its triangles.
-pub(super) struct ProgrammeUnderWay {
-    pub kept: Kept,
+/// A program that is not solved yet, and its triangles.
+pub(super) struct ProgramUnderWay {
+    pub kept: ReachableTriangles,
     pub space: QuadraticSpace,
     /// The functional v(goal) − v(start), as weights of values.
     pub gain: Vec<(u32, f64)>,
 }
 
 /// What is done next, with what is there for it.
-pub(super) enum Stage {
+pub(super) enum ProgramStage {
     /// Affine functions below the cost are found for the other triangles, each with its level.
     Minorants(Vec<(u32, Minorant)>),
     /// They are compared at the edges.
     Edges(Vec<(u32, Minorant)>),
-    /// The programme is made and solved.
+    /// The program is made and solved.
     Solve(Vec<Minorant>),
-    Solved(Vec<Minorant>, ProgrammeSolution),
+    Solved(Vec<Minorant>, ConicSolution),
 }
 
-/// The programme that is under way, if there is one. A clone begins it again, with the same result.
+/// The program that is under way, if there is one. A clone begins it again, with the same result.
 #[derive(Default)]
-pub(super) struct UnderWay(Option<Box<(ProgrammeUnderWay, Stage)>>);
+pub(super) struct UnderWay(Option<Box<(ProgramUnderWay, ProgramStage)>>);
 
 impl UnderWay {
-    pub fn of(work: ProgrammeUnderWay, next: Stage) -> Self {
+    pub fn new(work: ProgramUnderWay, next: ProgramStage) -> Self {
         Self(Some(Box::new((work, next))))
     }
 
-    pub fn take(&mut self) -> Option<(ProgrammeUnderWay, Stage)> {
+    pub fn take(&mut self) -> Option<(ProgramUnderWay, ProgramStage)> {
         self.0.take().map(|work| *work)
     }
 }
@@ -59,7 +59,7 @@ impl Certificate {
     /// Finds affine functions below the cost for some more triangles of the space, with their levels.
     pub(super) fn find_minorants(
         &self,
-        work: &ProgrammeUnderWay,
+        work: &ProgramUnderWay,
         found: &mut Vec<(u32, Minorant)>,
     ) -> Progress {
         let inset = self.inset();
@@ -107,7 +107,7 @@ mod tests {
     use glam::{DVec2, dvec2};
 
     use super::super::CertificateTask;
-    use super::super::programme::Unsolved;
+    use super::super::conic_program::Unsolved;
     use super::*;
     use crate::geometry::Rect;
     use crate::path::{CostDensity, CostRange};
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_programme_that_is_told_to_stop_is_not_solved() {
+    fn a_program_that_is_told_to_stop_is_not_solved() {
         let path = vec![dvec2(0.1, 0.2), dvec2(0.9, 0.8)];
         let task = CertificateTask::in_rectangle(Rect::UNIT, Arc::new(One), path, 1.0, 0.001);
         let mut certificate = Certificate::new(task.unwrap()).unwrap();
@@ -136,9 +136,8 @@ mod tests {
                 (work, stage) => certificate.under_way = UnderWay::of(work, stage),
             }
         };
-        let programme = certificate.programme(&work, &minorants);
-        let solved =
-            |stop| programme.solve(Arc::new(AtomicBool::new(stop))).map(|solution| solution.steps > 0);
+        let program = certificate.program(&work, &minorants);
+        let solved = |stop| program.solve(Arc::new(AtomicBool::new(stop))).map(|solution| solution.steps > 0);
         assert_eq!((solved(true), solved(false)), (Err(Unsolved::Stopped), Ok(true)));
     }
 }

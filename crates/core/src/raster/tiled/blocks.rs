@@ -12,7 +12,7 @@ const CHUNK_BLOCKS: usize = (CHUNK * CHUNK) as usize;
 /// copied and not the whole table.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks<T> {
-    chunks: NumberMap<Key, Arc<Chunk<T>>>,
+    chunks: NumberMap<ChunkKey, Arc<Chunk<T>>>,
     count: usize,
 }
 
@@ -27,7 +27,7 @@ impl<T> Default for Blocks<T> {
 impl<T: Clone> Blocks<T> {
     #[inline]
     pub fn get(&self, x: i32, y: i32) -> Option<&T> {
-        self.chunks.get(&Key::of_chunk(x, y))?[place_in_chunk(x, y)].as_ref()
+        self.chunks.get(&ChunkKey::of_chunk(x, y))?[place_in_chunk(x, y)].as_ref()
     }
 
     pub fn contains(&self, x: i32, y: i32) -> bool {
@@ -35,11 +35,11 @@ impl<T: Clone> Blocks<T> {
     }
 
     pub fn get_mut(&mut self, x: i32, y: i32) -> Option<&mut T> {
-        Arc::make_mut(self.chunks.get_mut(&Key::of_chunk(x, y))?)[place_in_chunk(x, y)].as_mut()
+        Arc::make_mut(self.chunks.get_mut(&ChunkKey::of_chunk(x, y))?)[place_in_chunk(x, y)].as_mut()
     }
 
     pub fn get_or_insert(&mut self, x: i32, y: i32, value: impl FnOnce() -> T) -> &mut T {
-        let chunk = self.chunks.entry(Key::of_chunk(x, y));
+        let chunk = self.chunks.entry(ChunkKey::of_chunk(x, y));
         let chunk = chunk.or_insert_with(|| Arc::new([const { None }; CHUNK_BLOCKS]));
         let block = &mut Arc::make_mut(chunk)[place_in_chunk(x, y)];
         self.count += usize::from(block.is_none());
@@ -47,7 +47,7 @@ impl<T: Clone> Blocks<T> {
     }
 
     pub fn remove(&mut self, x: i32, y: i32) -> Option<T> {
-        let key = Key::of_chunk(x, y);
+        let key = ChunkKey::of_chunk(x, y);
         let chunk = Arc::make_mut(self.chunks.get_mut(&key)?);
         let removed = chunk[place_in_chunk(x, y)].take()?;
         if chunk.iter().all(Option::is_none) {
@@ -90,9 +90,9 @@ fn place_in_chunk(x: i32, y: i32) -> usize {
 
 /// Column and row of a chunk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Key(u64);
+struct ChunkKey(u64);
 
-impl Key {
+impl ChunkKey {
     /// Returns the key of the chunk that contains the block [x, y].
     #[inline]
     fn of_chunk(x: i32, y: i32) -> Self {

@@ -12,7 +12,7 @@ use glam::DVec2;
 
 use super::{PixelGrid, ValueRange, ValueRanges, power_of_two};
 use blocks::Blocks;
-use summary::{Extent, Summary};
+use summary::{Summary, TileExtent};
 use tile::index;
 
 pub use tile::{TILE, Tile, TilePlace};
@@ -34,23 +34,23 @@ pub struct TiledRaster {
     grid: PixelGrid,
     blank: f32,
     /// The tiles of each depth. The last depth has tiles.
-    depths: Vec<Arc<Blocks<Node>>>,
+    depths: Vec<Arc<Blocks<TileNode>>>,
     /// The ranges of scale 1, 2 … up to the coarsest, see [`ValueRanges`].
     scales: Vec<Arc<Blocks<Arc<Summary>>>>,
     /// The rectangle of the tiles of depth 0.
-    extent: Option<Extent>,
+    extent: Option<TileExtent>,
     /// The range of all values.
     whole: ValueRange,
 }
 
 /// A tile, and the ranges of its pixels if it has children.
 #[derive(Clone, Debug)]
-struct Node {
+struct TileNode {
     tile: Arc<Tile>,
     summary: Option<Arc<Summary>>,
 }
 
-impl Node {
+impl TileNode {
     #[inline]
     fn range(&self, index: usize) -> ValueRange {
         match &self.summary {
@@ -161,7 +161,7 @@ impl TiledRaster {
     /// Returns memory of tiles and ranges, in bytes. Tiles that clones share are counted for each clone.
     pub fn bytes(&self) -> usize {
         let of_node =
-            |node: &Node| size_of::<Tile>() + node.summary.as_ref().map_or(0, |s| size_of_val(&**s));
+            |node: &TileNode| size_of::<Tile>() + node.summary.as_ref().map_or(0, |s| size_of_val(&**s));
         let tiles =
             self.depths.iter().flat_map(|tiles| tiles.iter()).map(|(_, node)| of_node(node)).sum::<usize>();
         tiles + self.scales.iter().map(|ranges| ranges.len() * size_of::<Summary>()).sum::<usize>()
@@ -170,7 +170,7 @@ impl TiledRaster {
     /// Returns the deepest tile, of at most the given depth, that contains the pixel in column `x` and row
     /// `y` of that depth, and the index of the pixel in it.
     #[inline]
-    fn deepest_at(&self, depth: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
+    fn deepest_at(&self, depth: usize, x: i32, y: i32) -> Option<(&TileNode, usize)> {
         // Try depth 0 first: most tiles have no children.
         let (node, index) = self.ancestor(depth, 0, x, y)?;
         if depth == 0 || node.summary.is_none() {
@@ -194,7 +194,7 @@ impl TiledRaster {
 
     /// Returns the deepest tile, of at most the given depth, over the tile with the pixel in column `x` and
     /// row `y` of that depth, and how many depths it is above it.
-    fn deepest_over(&self, depth: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
+    fn deepest_over(&self, depth: usize, x: i32, y: i32) -> Option<(&TileNode, usize)> {
         let deepest = depth.min(self.depths.len().saturating_sub(1));
         (0..=deepest).rev().find_map(|to| Some((self.ancestor(depth, to, x, y)?.0, depth - to)))
     }
@@ -210,14 +210,14 @@ impl TiledRaster {
     /// Returns the tile of depth `to` over the pixel in column `x` and row `y` of a greater depth, and the
     /// index of the pixel in it.
     #[inline]
-    fn ancestor(&self, depth: usize, to: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
+    fn ancestor(&self, depth: usize, to: usize, x: i32, y: i32) -> Option<(&TileNode, usize)> {
         let up = (depth - to).min(31);
         self.node(to, x >> up, y >> up).map(|node| (node, index(x >> up, y >> up)))
     }
 
     /// Returns the tile with the pixel in column `x` and row `y` of a depth.
     #[inline]
-    fn node(&self, depth: usize, x: i32, y: i32) -> Option<&Node> {
+    fn node(&self, depth: usize, x: i32, y: i32) -> Option<&TileNode> {
         self.depths.get(depth)?.get(x >> TILE.ilog2(), y >> TILE.ilog2())
     }
 }
@@ -314,7 +314,7 @@ fn tiles_between(low: [i32; 2], high: [i32; 2]) -> impl Iterator<Item = [i32; 2]
 impl PartialEq for TiledRaster {
     fn eq(&self, other: &Self) -> bool {
         let same = |a: &Arc<Tile>, b: &Arc<Tile>| Arc::ptr_eq(a, b) || a == b;
-        let equal_tiles = |a: &Arc<Blocks<Node>>, b: &Arc<Blocks<Node>>| {
+        let equal_tiles = |a: &Arc<Blocks<TileNode>>, b: &Arc<Blocks<TileNode>>| {
             Arc::ptr_eq(a, b) || a.equal_by(b, |a, b| same(&a.tile, &b.tile))
         };
         let depths = self.depths.len() == other.depths.len();

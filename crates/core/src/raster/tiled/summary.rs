@@ -4,7 +4,7 @@ use std::ops::Index;
 use std::sync::Arc;
 
 use super::tile::{TILE_PIXELS, index};
-use super::{Node, TILE, Tile, TilePlace, TiledRaster};
+use super::{TILE, Tile, TileNode, TilePlace, TiledRaster};
 use crate::raster::{ValueRange, ValueRanges};
 
 /// The ranges of 32 × 32 squares of one scale, row by row from the lowest.
@@ -30,14 +30,14 @@ impl Summary {
     }
 }
 
-/// Least and greatest column and row of some tiles of depth 0.
+/// Minimum and maximum column and row of some tiles of depth 0.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
+pub(super) struct TileExtent {
     min: [i32; 2],
     max: [i32; 2],
 }
 
-impl Extent {
+impl TileExtent {
     fn with(extent: Option<Self>, tile: [i32; 2]) -> Self {
         let Self { min, max } = extent.unwrap_or(Self { min: tile, max: tile });
         let pick = |a: [i32; 2], pick: fn(i32, i32) -> i32| [pick(a[0], tile[0]), pick(a[1], tile[1])];
@@ -161,7 +161,7 @@ impl TiledRaster {
             return Some(old);
         }
         let tiles = Arc::make_mut(&mut self.depths[depth]);
-        tiles.get_or_insert(place.x, place.y, || Node { tile, summary: None });
+        tiles.get_or_insert(place.x, place.y, || TileNode { tile, summary: None });
         None
     }
 
@@ -184,7 +184,7 @@ impl TiledRaster {
             self.extent = None;
             self.scales.clear();
         } else if self.tile(TilePlace { depth: 0, x: tile[0], y: tile[1] }).is_some() {
-            let extent = Extent::with(self.extent, tile);
+            let extent = TileExtent::with(self.extent, tile);
             self.extent = Some(extent);
             while self.coarsest() < extent.coarsest() {
                 self.add_scale();
@@ -267,8 +267,8 @@ impl TiledRaster {
         let parent = if scale < 0 { at(-scale - 1, x >> 1, y >> 1) } else { None };
         let blank = ValueRange::one(self.blank);
         match (node, summary) {
-            (Some(Node { tile, summary: None }), _) => coarser.joined(tile.array(), ValueRange::one),
-            (Some(Node { summary: Some(summary), .. }), _) | (None, Some(summary)) => {
+            (Some(TileNode { tile, summary: None }), _) => coarser.joined(tile.array(), ValueRange::one),
+            (Some(TileNode { summary: Some(summary), .. }), _) | (None, Some(summary)) => {
                 coarser.joined(&summary.0, |range| range)
             }
             (None, None) => {
@@ -301,7 +301,7 @@ impl TiledRaster {
         }
     }
 
-    fn node_mut(&mut self, depth: usize, [x, y]: [i32; 2]) -> Option<&mut Node> {
+    fn node_mut(&mut self, depth: usize, [x, y]: [i32; 2]) -> Option<&mut TileNode> {
         Arc::make_mut(self.depths.get_mut(depth)?).get_mut(x, y)
     }
 }

@@ -43,7 +43,7 @@ pub(super) struct Directories {
 /// # Errors
 /// Fails when the source is not a TIFF file, is cut off, or has a picture that is too large for a raster.
 pub(super) fn directories(source: &mut (impl Read + Seek)) -> Result<Directories, Flaw> {
-    let mut header = Header { source, is_big_endian: false, is_big: false };
+    let mut header = TiffHeader { source, is_big_endian: false, is_big: false };
     let start = header.start()?;
     let (first, mut next) = header.directory(start)?;
     let [columns, rows] = first.size;
@@ -111,14 +111,14 @@ impl<R: Seek> Seek for Colorless<R> {
     }
 }
 
-struct Header<'a, R> {
+struct TiffHeader<'a, R> {
     source: &'a mut R,
     is_big_endian: bool,
     /// Whether it is a BigTIFF.
     is_big: bool,
 }
 
-impl<R: Read + Seek> Header<'_, R> {
+impl<R: Read + Seek> TiffHeader<'_, R> {
     /// Returns where the first directory is.
     fn start(&mut self) -> Result<u64, Flaw> {
         self.source.seek(SeekFrom::Start(0))?;

@@ -25,7 +25,7 @@ pub(super) struct Placement {
 
 /// Keys that describe the coordinates: the short ones by number, and the texts.
 #[derive(Debug, Default)]
-pub(super) struct Keys {
+pub(super) struct GeoKeys {
     shorts: Vec<(u16, u16)>,
     texts: Vec<(u16, String)>,
 }
@@ -44,7 +44,7 @@ const VERTICAL_UNIT: u16 = 4099;
 /// The value of `GTRasterTypeGeoKey` for samples at points, which lie at the centres of pixels.
 const POINTS: u16 = 2;
 
-impl Keys {
+impl GeoKeys {
     /// Reads the keys of a file; none where it has none.
     pub(super) fn read(decoder: &mut Decoder<impl Read + Seek>) -> Result<Self, Flaw> {
         let Some(directory) = decoder.find_tag(Tag::GeoKeyDirectoryTag)? else { return Ok(Self::default()) };
@@ -78,8 +78,8 @@ impl Keys {
     /// Returns what the keys say about heights and depths.
     pub(super) fn vertical(&self) -> VerticalSystem {
         let known = |key| self.short(key).filter(|&code| code != 0 && code < USER_DEFINED);
-        let system = known(VERTICAL_CODE).map_or_else(VerticalSystem::default, VerticalSystem::of_epsg);
-        let unit = known(VERTICAL_UNIT).map_or(ValueUnit::Unstated, ValueUnit::of_epsg);
+        let system = known(VERTICAL_CODE).map_or_else(VerticalSystem::default, VerticalSystem::from_epsg);
+        let unit = known(VERTICAL_UNIT).map_or(ValueUnit::Unstated, ValueUnit::from_epsg);
         VerticalSystem { unit: unit.or(system.unit), ..system }
     }
 
@@ -96,7 +96,7 @@ impl Keys {
         };
         let epsg = self.short(code).filter(|&code| code != 0 && code < USER_DEFINED).map(u32::from);
         let name = self.text(citation).or_else(|| self.text(CITATION));
-        Some(CoordinateSystem::of_keys(kind, epsg, name))
+        Some(CoordinateSystem::from_keys(kind, epsg, name))
     }
 }
 
@@ -106,7 +106,7 @@ impl Keys {
 /// Fails with a sentence when the picture is turned, sheared, mirrored, or covers no rectangle.
 pub(super) fn read(
     decoder: &mut Decoder<impl Read + Seek>,
-    keys: &Keys,
+    keys: &GeoKeys,
     size: [u32; 2],
 ) -> Result<Option<Placement>, Flaw> {
     let Some(affine) = Affine::read(decoder)? else { return Ok(None) };

@@ -9,7 +9,7 @@ use crate::io::error::{Flaw, PlacedFlaw};
 use crate::io::geojson::{self, Outline};
 use crate::io::gpkg::connection::Database;
 use crate::io::shapes::{self, ShapeFile};
-use crate::io::wkb::Bytes;
+use crate::io::wkb::WkbBytes;
 use crate::io::{CoordinateSystem, Meter};
 use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::layers::ShapeList;
@@ -178,7 +178,7 @@ fn read_rows(
 /// Reads a geometry: two letters, a version, flags, the number of its system, its envelope, and well-known
 /// binary.
 fn read_blob(bytes: &[u8], shapes: &mut ShapeList) -> Result<(), String> {
-    let mut bytes = Bytes::new(bytes, true);
+    let mut bytes = WkbBytes::new(bytes, true);
     let header = bytes.take(8)?;
     if &header[..2] != b"GP" {
         return Err("is no geometry: it begins with other bytes".into());

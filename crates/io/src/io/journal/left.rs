@@ -86,24 +86,24 @@ fn taken_over(path: &Path) -> Result<Option<Box<Abandoned>>, String> {
     if bytes.len() as u64 > MOST_BYTES {
         return Err(format!("it is larger than {} GiB", MOST_BYTES >> 30));
     }
-    let kept = Kept::parse(&bytes)?;
+    let kept = KeptJournal::parse(&bytes)?;
     if kept.clean {
         let _ = fs::remove_file(path); // the next start tries again
         return Ok(None);
     }
-    let Kept { project, home, time, .. } = kept;
+    let KeptJournal { project, home, time, .. } = kept;
     Ok(Some(Box::new(Abandoned { project, home, time, path: path.to_owned(), _lock: file })))
 }
 
 /// The content of a journal.
-pub(super) struct Kept {
+pub(super) struct KeptJournal {
     pub(super) project: Project,
     home: Option<PathBuf>,
     pub(super) time: u64,
     pub(super) clean: bool,
 }
 
-impl Kept {
+impl KeptJournal {
     /// Combines all records up to the first incomplete one, or the first that another version wrote.
     ///
     /// # Errors

@@ -2,7 +2,7 @@ mod killed;
 
 use super::*;
 use glam::dvec2;
-use left::Kept;
+use left::KeptJournal;
 use meshbrush_core::document::{Document, Edits, Example, Setting, Settings};
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -70,7 +70,7 @@ fn a_journal_cut_anywhere_has_all_complete_records() {
         (0..bytes.len()).step_by(bytes.len() / 23).chain(versions.iter().flat_map(|&(end, _)| [end - 1, end]))
     {
         let whole = versions.partition_point(|&(end, _)| end <= cut);
-        match Kept::parse(&bytes[..cut]) {
+        match KeptJournal::parse(&bytes[..cut]) {
             Err(_) => assert_eq!(whole, 0, "cut at {cut}"),
             Ok(kept) => {
                 assert_eq!((kept.time, kept.clean), (99 + whole as u64, false));
@@ -81,7 +81,7 @@ fn a_journal_cut_anywhere_has_all_complete_records() {
     }
     let mut damaged = bytes.clone();
     damaged[versions[4].0 + 40] ^= 4;
-    assert_eq!(Kept::parse(&damaged).unwrap().time, 104);
+    assert_eq!(KeptJournal::parse(&damaged).unwrap().time, 104);
     fs::remove_dir_all(folder).unwrap();
 }
 

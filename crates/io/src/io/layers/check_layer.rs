@@ -278,7 +278,7 @@ impl SavedLayer {
     pub fn raster_file(&self) -> Result<RasterFile, KeyFault> {
         let path = self.needed("file", self.file.clone())?;
         let bounds = self.bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))?;
-        match RasterFormat::of(&path) {
+        match RasterFormat::from_path(&path) {
             Ok(format) => Ok(RasterFile { path, format, bounds }),
             Err(rule) => Err(KeyFault { given: Some(String::new()), ..KeyFault::value("file", rule) }),
         }

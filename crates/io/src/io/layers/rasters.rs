@@ -44,7 +44,7 @@ impl RasterFile {
     /// # Errors
     /// Fails with a sentence when the ending of the name is that of no raster.
     pub fn named(path: &Path) -> Result<Self, String> {
-        Ok(Self { path: path.to_owned(), format: RasterFormat::of(path)?, bounds: None })
+        Ok(Self { path: path.to_owned(), format: RasterFormat::from_path(path)?, bounds: None })
     }
 }
 

@@ -320,7 +320,7 @@ impl SavedLayer {
 
     /// Returns whether it needs both ends of the scale from the smallest to the largest target diameter.
     pub fn uses_scale(&self) -> bool {
-        let format = || self.file.as_ref().and_then(|file| RasterFormat::of(file).ok());
+        let format = || self.file.as_ref().and_then(|file| RasterFormat::from_path(file).ok());
         let is_image = || format().is_some_and(|format| !format.is_grid());
         self.is_risk() || (self.read_as == Some(SavedQuantity::Diameter) && is_image())
     }

@@ -1,7 +1,7 @@
 //! The coordinates along a dimension: which direction they are, their unit, and that they are evenly spaced.
 
 use super::super::Flaw;
-use super::contents::{Sample, Source, Variable};
+use super::contents::{ReadVariable, Source, StoredType};
 use super::window::Axis;
 use meshbrush_mesh::text::{Grouped, Number, excerpt};
 
@@ -41,7 +41,7 @@ const DEGREE_NAMES: [&str; 4] = ["lon", "lat", "nav_lon", "nav_lat"];
 
 /// Returns the direction and the unit of coordinates, by their standard name, unit, axis or name; `None` for
 /// others, such as times.
-pub(super) fn direction(variable: &Variable) -> Option<(Direction, AxisUnit)> {
+pub(super) fn direction(variable: &ReadVariable) -> Option<(Direction, AxisUnit)> {
     use Direction::{X, Y};
     let standard = variable.text("standard_name").unwrap_or_default().to_ascii_lowercase();
     let unit = variable.text("units").unwrap_or_default();
@@ -96,7 +96,7 @@ fn degrees_to(unit: &str) -> Option<Direction> {
 pub(super) fn read(source: &mut dyn Source, variable: usize) -> Result<Axis, Flaw> {
     let coordinates = &source.variables()[variable];
     let (name, count) = (excerpt(40, &coordinates.name), coordinates.dimensions[0].length);
-    let is_single = coordinates.sample == Some(Sample::F32);
+    let is_single = coordinates.sample == Some(StoredType::F32);
     if count > MOST_VALUES {
         let (count, most) = (Grouped(count as usize), Grouped(MOST_VALUES as usize));
         return Err(Flaw::Syntax(format!("“{name}” has {count} values, and at most {most} are read.")));
@@ -132,7 +132,7 @@ pub(super) fn read(source: &mut dyn Source, variable: usize) -> Result<Axis, Fla
 }
 
 /// Returns the factor and the summand that give values from samples.
-pub(super) fn packing(variable: &Variable) -> (f64, f64) {
+pub(super) fn packing(variable: &ReadVariable) -> (f64, f64) {
     let number = |name: &str| variable.numbers(name).first().copied();
     (number("scale_factor").unwrap_or(1.0), number("add_offset").unwrap_or(0.0))
 }

@@ -4,7 +4,7 @@
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 
 use super::super::Flaw;
-use super::contents::{Dimension, Sample, Source, Value, Variable};
+use super::contents::{Dimension, ReadAttribute, ReadVariable, Source, StoredType};
 use meshbrush_mesh::text::excerpt;
 
 /// The first bytes of a file; the version follows.
@@ -27,15 +27,15 @@ pub(super) struct Classic<S> {
     source: S,
     /// Bytes of the file.
     length: u64,
-    variables: Vec<Variable>,
-    places: Vec<Place>,
+    variables: Vec<ReadVariable>,
+    places: Vec<VariablePlace>,
     /// Bytes from one record to the next.
     record_bytes: u64,
 }
 
 /// Where the samples of a variable begin, and whether there is a part of it in each record.
 #[derive(Clone, Copy)]
-struct Place {
+struct VariablePlace {
     begin: u64,
     is_record: bool,
 }
@@ -48,7 +48,7 @@ impl<S: Read + Seek> Classic<S> {
     pub(super) fn open(mut source: S) -> Result<Self, Flaw> {
         let length = source.seek(SeekFrom::End(0))?;
         source.seek(SeekFrom::Start(0))?;
-        let mut header = Header { source: BufReader::new(&mut source), version: 0, left: MOST_HEADER };
+        let mut header = ClassicHeader { source: BufReader::new(&mut source), version: 0, left: MOST_HEADER };
         let (mut variables, places, records) = header.read()?;
         let record_bytes = record_bytes(&variables, &places)?;
         let first = places.iter().filter(|place| place.is_record).map(|place| place.begin).min();
@@ -62,7 +62,7 @@ impl<S: Read + Seek> Classic<S> {
 }
 
 /// Returns the bytes of a record: of all parts, each padded to a multiple of four. One alone is not padded.
-fn record_bytes(variables: &[Variable], places: &[Place]) -> Result<u64, Flaw> {
+fn record_bytes(variables: &[ReadVariable], places: &[VariablePlace]) -> Result<u64, Flaw> {
     let parts = variables.iter().zip(places).filter(|(_, place)| place.is_record);
     let sizes: Vec<u128> = parts.map(|(variable, _)| size(variable, &variable.dimensions[1..])).collect();
     let all = match sizes[..] {
@@ -73,16 +73,16 @@ fn record_bytes(variables: &[Variable], places: &[Place]) -> Result<u64, Flaw> {
 }
 
 /// Returns the bytes of samples of a variable along some dimensions.
-fn size(variable: &Variable, dimensions: &[Dimension]) -> u128 {
+fn size(variable: &ReadVariable, dimensions: &[Dimension]) -> u128 {
     // Text has one byte per letter, and is not read.
-    let sample = variable.sample.map_or(1, Sample::bytes) as u128;
+    let sample = variable.sample.map_or(1, StoredType::bytes) as u128;
     dimensions
         .iter()
         .fold(sample, |size, dimension| size.saturating_mul(dimension.length.into()).min(1 << 100))
 }
 
 impl<S: Read + Seek> Source for Classic<S> {
-    fn variables(&self) -> &[Variable] {
+    fn variables(&self) -> &[ReadVariable] {
         &self.variables
     }
 
@@ -122,7 +122,7 @@ impl<S: Read + Seek> Source for Classic<S> {
     }
 }
 
-impl Sample {
+impl StoredType {
     /// Returns the type with a number in the format.
     fn of(code: u32) -> Result<Option<Self>, Flaw> {
         Ok(Some(match code {
@@ -163,7 +163,7 @@ fn decode<const N: usize>(bytes: &[u8], numbers: &mut Vec<f64>, number: fn([u8; 
 }
 
 /// Reads a header from its start.
-struct Header<R> {
+struct ClassicHeader<R> {
     source: R,
     version: u8,
     /// Bytes that it may still have.
@@ -171,9 +171,9 @@ struct Header<R> {
 }
 
 /// The variables, their places, and the number of records if the file says it.
-type Described = (Vec<Variable>, Vec<Place>, Option<u64>);
+type Described = (Vec<ReadVariable>, Vec<VariablePlace>, Option<u64>);
 
-impl<R: Read + Seek> Header<R> {
+impl<R: Read + Seek> ClassicHeader<R> {
     fn read(&mut self) -> Result<Described, Flaw> {
         let [magic @ .., version] = self.bytes::<4>()?;
         if &magic != MAGIC || ![1, 2, 5].contains(&version) {
@@ -192,7 +192,7 @@ impl<R: Read + Seek> Header<R> {
         Ok((variables, places, records))
     }
 
-    fn variable(&mut self, dimensions: &[Dimension]) -> Result<(Variable, Place), Flaw> {
+    fn variable(&mut self, dimensions: &[Dimension]) -> Result<(ReadVariable, VariablePlace), Flaw> {
         let name = self.name()?;
         let rank = self.length()?;
         if rank > MOST_RANK {
@@ -207,21 +207,21 @@ impl<R: Read + Seek> Header<R> {
         }
         let is_record = own.first().is_some_and(|dimension| dimension.length == 0);
         let attributes = self.attributes()?;
-        let sample = Sample::of(self.u32()?)?;
+        let sample = StoredType::of(self.u32()?)?;
         self.length()?; // The size of the variable, which is too large for its number in some files.
         let begin = if self.version == 1 { self.u32()?.into() } else { u64::from_be_bytes(self.bytes()?) };
-        Ok((Variable { name, sample, dimensions: own, attributes }, Place { begin, is_record }))
+        Ok((ReadVariable { name, sample, dimensions: own, attributes }, VariablePlace { begin, is_record }))
     }
 
-    fn attributes(&mut self) -> Result<Vec<(String, Value)>, Flaw> {
+    fn attributes(&mut self) -> Result<Vec<(String, ReadAttribute)>, Flaw> {
         let list = self.list(12, |header| Ok((header.name()?, header.value()?)))?;
         Ok(list.into_iter().filter_map(|(name, value)| Some((name, value?))).collect())
     }
 
     /// Reads the value of an attribute; `None` for a long one.
-    fn value(&mut self) -> Result<Option<Value>, Flaw> {
-        let sample = Sample::of(self.u32()?)?;
-        let bytes = self.length()?.saturating_mul(sample.map_or(1, Sample::bytes) as u64);
+    fn value(&mut self) -> Result<Option<ReadAttribute>, Flaw> {
+        let sample = StoredType::of(self.u32()?)?;
+        let bytes = self.length()?.saturating_mul(sample.map_or(1, StoredType::bytes) as u64);
         let padded = bytes.checked_next_multiple_of(4).and_then(|bytes| i64::try_from(bytes).ok());
         let padded = padded.ok_or(Flaw::CutOff)?;
         if bytes > MOST_ATTRIBUTE {
@@ -230,11 +230,11 @@ impl<R: Read + Seek> Header<R> {
         }
         let bytes = self.padded(bytes)?;
         Ok(Some(match sample {
-            None => Value::Text(String::from_utf8_lossy(&bytes).into_owned()),
+            None => ReadAttribute::Text(String::from_utf8_lossy(&bytes).into_owned()),
             Some(sample) => {
                 let mut numbers = Vec::new();
                 sample.decode(&bytes, &mut numbers);
-                Value::Numbers(sample, numbers)
+                ReadAttribute::Numbers(sample, numbers)
             }
         }))
     }

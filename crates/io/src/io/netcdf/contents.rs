@@ -12,56 +12,56 @@ pub(super) struct Dimension {
 
 /// The value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(super) enum ReadAttribute {
     Text(String),
     /// Numbers of a type.
-    Numbers(Sample, Vec<f64>),
+    Numbers(StoredType, Vec<f64>),
 }
 
 /// A variable.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Variable {
+pub(super) struct ReadVariable {
     pub(super) name: String,
     /// The type of its values; `None` for text and other types that are no numbers.
-    pub(super) sample: Option<Sample>,
+    pub(super) sample: Option<StoredType>,
     /// The slowest dimension first.
     pub(super) dimensions: Vec<Dimension>,
-    pub(super) attributes: Vec<(String, Value)>,
+    pub(super) attributes: Vec<(String, ReadAttribute)>,
 }
 
-impl Variable {
+impl ReadVariable {
     /// Returns an attribute that is text, without spaces around it.
     pub(super) fn text(&self, name: &str) -> Option<&str> {
         match self.attribute(name)? {
-            Value::Text(text) => Some(text.trim_matches(|c: char| c.is_whitespace() || c == '\0')),
-            Value::Numbers(..) => None,
+            ReadAttribute::Text(text) => Some(text.trim_matches(|c: char| c.is_whitespace() || c == '\0')),
+            ReadAttribute::Numbers(..) => None,
         }
     }
 
     /// Returns the numbers of an attribute; none where it is absent, or text.
     pub(super) fn numbers(&self, name: &str) -> &[f64] {
         match self.attribute(name) {
-            Some(Value::Numbers(_, numbers)) => numbers,
-            Some(Value::Text(_)) | None => &[],
+            Some(ReadAttribute::Numbers(_, numbers)) => numbers,
+            Some(ReadAttribute::Text(_)) | None => &[],
         }
     }
 
     /// Returns the type of the numbers of an attribute.
-    pub(super) fn type_of_numbers(&self, name: &str) -> Option<Sample> {
+    pub(super) fn type_of_numbers(&self, name: &str) -> Option<StoredType> {
         match self.attribute(name)? {
-            Value::Numbers(sample, _) => Some(*sample),
-            Value::Text(_) => None,
+            ReadAttribute::Numbers(sample, _) => Some(*sample),
+            ReadAttribute::Text(_) => None,
         }
     }
 
-    fn attribute(&self, name: &str) -> Option<&Value> {
+    fn attribute(&self, name: &str) -> Option<&ReadAttribute> {
         self.attributes.iter().find(|(at, _)| at == name).map(|(_, value)| value)
     }
 }
 
 /// The type of the values of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sample {
+pub(super) enum StoredType {
     I8,
     U8,
     I16,
@@ -74,7 +74,7 @@ pub(super) enum Sample {
     F64,
 }
 
-impl Sample {
+impl StoredType {
     pub(super) fn bytes(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -115,7 +115,7 @@ impl Sample {
 
 /// A file whose header was read.
 pub(super) trait Source {
-    fn variables(&self) -> &[Variable];
+    fn variables(&self) -> &[ReadVariable];
 
     /// Returns the samples of a variable from the index `corner` on, `extent` of them along each dimension,
     /// the last dimension fastest. They lie within the variable.
@@ -133,17 +133,17 @@ mod tests {
     #[test]
     fn nothing_written_is_beside_the_end_of_the_numbers() {
         for (sample, fill) in [
-            (Sample::I16, f64::from(i16::MIN + 1)),
-            (Sample::U16, f64::from(u16::MAX)),
-            (Sample::I32, f64::from(i32::MIN + 1)),
-            (Sample::U32, f64::from(u32::MAX)),
-            (Sample::I64, (i64::MIN + 2) as f64),
-            (Sample::U64, (u64::MAX - 1) as f64),
-            (Sample::F32, f64::from_bits(0x479e_0000_0000_0000)),
-            (Sample::F64, f64::from_bits(0x479e_0000_0000_0000)),
+            (StoredType::I16, f64::from(i16::MIN + 1)),
+            (StoredType::U16, f64::from(u16::MAX)),
+            (StoredType::I32, f64::from(i32::MIN + 1)),
+            (StoredType::U32, f64::from(u32::MAX)),
+            (StoredType::I64, (i64::MIN + 2) as f64),
+            (StoredType::U64, (u64::MAX - 1) as f64),
+            (StoredType::F32, f64::from_bits(0x479e_0000_0000_0000)),
+            (StoredType::F64, f64::from_bits(0x479e_0000_0000_0000)),
         ] {
             assert_eq!(sample.default_fill(), Some(fill));
         }
-        assert_eq!([Sample::I8, Sample::U8].map(Sample::default_fill), [None, None]);
+        assert_eq!([StoredType::I8, StoredType::U8].map(StoredType::default_fill), [None, None]);
     }
 }

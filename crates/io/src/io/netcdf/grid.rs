@@ -7,7 +7,7 @@ use glam::dvec2;
 use super::super::coordinate_system::{CoordinateKind, CoordinateSystem};
 use super::super::{Flaw, GridWindow};
 use super::axis::{AxisUnit, Direction, direction};
-use super::contents::Variable;
+use super::contents::ReadVariable;
 use meshbrush_core::earth::{self, GeographicExtent};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, excerpt};
@@ -52,8 +52,8 @@ impl Grid {
     ///
     /// # Errors
     /// Fails with a sentence when there is none, and when there are several.
-    pub(super) fn choose(variables: &[Variable], name: Option<&str>) -> Result<Self, Flaw> {
-        let known = Coordinates::of(variables);
+    pub(super) fn choose(variables: &[ReadVariable], name: Option<&str>) -> Result<Self, Flaw> {
+        let known = DimensionCoordinates::of(variables);
         let grids = (0..variables.len()).filter_map(|number| Self::of(&variables[number], number, &known));
         let grids: Vec<Self> = grids.collect();
         let called = |grid: &Self| variables[grid.variable].name.as_str();
@@ -78,7 +78,7 @@ impl Grid {
 
     /// Returns a variable as a grid, if it is one: along one dimension with coordinates in each direction,
     /// and further dimensions of length one.
-    fn of(grid: &Variable, number: usize, known: &Coordinates) -> Option<Self> {
+    fn of(grid: &ReadVariable, number: usize, known: &DimensionCoordinates) -> Option<Self> {
         grid.sample?;
         let (mut x, mut y) = (None, None);
         for (at, dimension) in grid.dimensions.iter().enumerate() {
@@ -97,7 +97,7 @@ impl Grid {
     }
 
     /// Returns what the file says about the coordinates.
-    pub(super) fn system(&self, variables: &[Variable]) -> Option<CoordinateSystem> {
+    pub(super) fn system(&self, variables: &[ReadVariable]) -> Option<CoordinateSystem> {
         let described = described(variables, &variables[self.variable]);
         let known = |kind, unit| {
             let on_earth =
@@ -143,7 +143,7 @@ impl Grid {
     pub(super) fn area(&self, window: &GridWindow, system: Option<&CoordinateSystem>) -> Option<Rect> {
         let Some(plane) = window.plane else { return Some(window.area) };
         if self.is_geographic() {
-            let extent = GeographicExtent::of_plane(&plane.projection, window.area)?;
+            let extent = GeographicExtent::from_plane(&plane.projection, window.area)?;
             let GeographicExtent { west, width, south, north, .. } = extent;
             return Some(Rect::new(dvec2(west, south), dvec2(west + width, north)));
         }
@@ -157,11 +157,11 @@ impl Grid {
 }
 
 /// The coordinates of each dimension that has some, by its name: the number of the variable, what it says.
-struct Coordinates<'a>(HashMap<&'a str, (usize, Direction, AxisUnit)>);
+struct DimensionCoordinates<'a>(HashMap<&'a str, (usize, Direction, AxisUnit)>);
 
-impl<'a> Coordinates<'a> {
+impl<'a> DimensionCoordinates<'a> {
     /// Returns the coordinates of a file. Those with the name of the dimension come first.
-    fn of(variables: &'a [Variable]) -> Self {
+    fn of(variables: &'a [ReadVariable]) -> Self {
         let mut known = HashMap::new();
         for (number, variable) in variables.iter().enumerate() {
             let [dimension] = &variable.dimensions[..] else { continue };
@@ -178,7 +178,7 @@ impl<'a> Coordinates<'a> {
 }
 
 /// Returns the system that the variable describes whose name is the grid's attribute `grid_mapping`.
-fn described(variables: &[Variable], grid: &Variable) -> Option<CoordinateSystem> {
+fn described(variables: &[ReadVariable], grid: &ReadVariable) -> Option<CoordinateSystem> {
     let mapping = grid.text("grid_mapping")?;
     // With several, the name and the coordinates that it is for are separated: `crs: x y`.
     let name = mapping.split([':', ' ']).next().unwrap_or_default();
@@ -195,11 +195,11 @@ fn described(variables: &[Variable], grid: &Variable) -> Option<CoordinateSystem
         Some(_) => Some(CoordinateKind::Projected),
         None => None,
     };
-    by_text.or_else(|| Some(CoordinateSystem::of_keys(kind?, code, None)))
+    by_text.or_else(|| Some(CoordinateSystem::from_keys(kind?, code, None)))
 }
 
-fn no_grid(variables: &[Variable]) -> Flaw {
-    let is_curved = |variable: &&Variable| variable.dimensions.len() > 1 && direction(variable).is_some();
+fn no_grid(variables: &[ReadVariable]) -> Flaw {
+    let is_curved = |variable: &&ReadVariable| variable.dimensions.len() > 1 && direction(variable).is_some();
     if let Some(curved) = variables.iter().find(is_curved) {
         return Flaw::Syntax(format!(
             "its coordinates “{}” have {} dimensions: the grid is curved, and only straight grids can be read. Resample \
@@ -212,7 +212,7 @@ fn no_grid(variables: &[Variable]) -> Flaw {
         let problem = "it is a grid as GMT 3 wrote them, with ranges in place of coordinates";
         return Flaw::Syntax(format!("{problem}. Convert it with gmt grdconvert OLD.grd NEW.grd=nf."));
     }
-    let shape = |variable: &Variable| {
+    let shape = |variable: &ReadVariable| {
         let names: Vec<&str> = variable.dimensions.iter().map(|dimension| dimension.name.as_str()).collect();
         format!("{}({})", variable.name, names.join(", "))
     };

@@ -10,7 +10,7 @@ use netcdf_reader::{
 };
 
 use super::super::Flaw;
-use super::contents::{Dimension, Sample, Source, Value, Variable};
+use super::contents::{Dimension, ReadAttribute, ReadVariable, Source, StoredType};
 use meshbrush_mesh::text::excerpt;
 
 /// Most bytes of decompressed chunks that are kept for the next block.
@@ -23,7 +23,7 @@ const MOST_HEADER: usize = 1 << 24;
 /// A NetCDF-4 file.
 pub(super) struct Hdf {
     file: NcFile,
-    variables: Vec<Variable>,
+    variables: Vec<ReadVariable>,
 }
 
 impl Hdf {
@@ -40,7 +40,7 @@ impl Hdf {
             max_object_header_bytes: MOST_HEADER,
             ..NcOpenOptions::default()
         };
-        let bytes = Arc::new(Bytes { source: Mutex::new(source), length });
+        let bytes = Arc::new(HdfBytes { source: Mutex::new(source), length });
         let file = NcFile::from_storage_with_options(bytes, options).map_err(flaw)?;
         let variables = file.variables().map_err(flaw)?.iter().map(variable).collect();
         Ok(Self { file, variables })
@@ -48,7 +48,7 @@ impl Hdf {
 }
 
 impl Source for Hdf {
-    fn variables(&self) -> &[Variable] {
+    fn variables(&self) -> &[ReadVariable] {
         &self.variables
     }
 
@@ -67,10 +67,10 @@ impl Source for Hdf {
     }
 }
 
-fn variable(described: &NcVariable) -> Variable {
+fn variable(described: &NcVariable) -> ReadVariable {
     let dimensions = described.dimensions.iter();
     let attributes = described.attributes.iter();
-    Variable {
+    ReadVariable {
         name: described.name.clone(),
         sample: sample(&described.dtype),
         dimensions: dimensions.map(|d| Dimension { name: d.name.clone(), length: d.size }).collect(),
@@ -78,51 +78,55 @@ fn variable(described: &NcVariable) -> Variable {
     }
 }
 
-fn sample(kind: &NcType) -> Option<Sample> {
+fn sample(kind: &NcType) -> Option<StoredType> {
     Some(match kind {
-        NcType::Byte => Sample::I8,
-        NcType::UByte => Sample::U8,
-        NcType::Short => Sample::I16,
-        NcType::UShort => Sample::U16,
-        NcType::Int => Sample::I32,
-        NcType::UInt => Sample::U32,
-        NcType::Int64 => Sample::I64,
-        NcType::UInt64 => Sample::U64,
-        NcType::Float => Sample::F32,
-        NcType::Double => Sample::F64,
+        NcType::Byte => StoredType::I8,
+        NcType::UByte => StoredType::U8,
+        NcType::Short => StoredType::I16,
+        NcType::UShort => StoredType::U16,
+        NcType::Int => StoredType::I32,
+        NcType::UInt => StoredType::U32,
+        NcType::Int64 => StoredType::I64,
+        NcType::UInt64 => StoredType::U64,
+        NcType::Float => StoredType::F32,
+        NcType::Double => StoredType::F64,
         _ => return None,
     })
 }
 
-fn value(value: &NcAttrValue) -> Option<Value> {
+fn value(value: &NcAttrValue) -> Option<ReadAttribute> {
     Some(match value {
-        NcAttrValue::Chars(text) => Value::Text(text.clone()),
-        NcAttrValue::Strings(texts) => Value::Text(texts.first()?.clone()),
+        NcAttrValue::Chars(text) => ReadAttribute::Text(text.clone()),
+        NcAttrValue::Strings(texts) => ReadAttribute::Text(texts.first()?.clone()),
         NcAttrValue::UserDefined { .. } => return None,
-        NcAttrValue::Bytes(list) => numbers(Sample::I8, list),
-        NcAttrValue::UBytes(list) => numbers(Sample::U8, list),
-        NcAttrValue::Shorts(list) => numbers(Sample::I16, list),
-        NcAttrValue::UShorts(list) => numbers(Sample::U16, list),
-        NcAttrValue::Ints(list) => numbers(Sample::I32, list),
-        NcAttrValue::UInts(list) => numbers(Sample::U32, list),
-        NcAttrValue::Int64s(list) => Value::Numbers(Sample::I64, list.iter().map(|&n| n as f64).collect()),
-        NcAttrValue::UInt64s(list) => Value::Numbers(Sample::U64, list.iter().map(|&n| n as f64).collect()),
-        NcAttrValue::Floats(list) => numbers(Sample::F32, list),
-        NcAttrValue::Doubles(list) => numbers(Sample::F64, list),
+        NcAttrValue::Bytes(list) => numbers(StoredType::I8, list),
+        NcAttrValue::UBytes(list) => numbers(StoredType::U8, list),
+        NcAttrValue::Shorts(list) => numbers(StoredType::I16, list),
+        NcAttrValue::UShorts(list) => numbers(StoredType::U16, list),
+        NcAttrValue::Ints(list) => numbers(StoredType::I32, list),
+        NcAttrValue::UInts(list) => numbers(StoredType::U32, list),
+        NcAttrValue::Int64s(list) => {
+            ReadAttribute::Numbers(StoredType::I64, list.iter().map(|&n| n as f64).collect())
+        }
+        NcAttrValue::UInt64s(list) => {
+            ReadAttribute::Numbers(StoredType::U64, list.iter().map(|&n| n as f64).collect())
+        }
+        NcAttrValue::Floats(list) => numbers(StoredType::F32, list),
+        NcAttrValue::Doubles(list) => numbers(StoredType::F64, list),
     })
 }
 
-fn numbers<T: Copy + Into<f64>>(sample: Sample, list: &[T]) -> Value {
-    Value::Numbers(sample, list.iter().map(|&number| number.into()).collect())
+fn numbers<T: Copy + Into<f64>>(sample: StoredType, list: &[T]) -> ReadAttribute {
+    ReadAttribute::Numbers(sample, list.iter().map(|&number| number.into()).collect())
 }
 
 /// The bytes of a file, for the crate.
-struct Bytes<S> {
+struct HdfBytes<S> {
     source: Mutex<S>,
     length: u64,
 }
 
-impl<S: Read + Seek + Send> Storage for Bytes<S> {
+impl<S: Read + Seek + Send> Storage for HdfBytes<S> {
     fn len(&self) -> u64 {
         self.length
     }

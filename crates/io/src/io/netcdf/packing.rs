@@ -1,10 +1,10 @@
 //! What samples mean: numbers that are no value, packed values, their unit and direction.
 
 use super::super::Flaw;
-use super::super::samples::{NoData, Unpacking};
+use super::super::samples::{NoData, SampleUnpacking};
 use super::super::vertical::{ValueFacts, ValueUnit, direction};
 use super::axis::packing;
-use super::contents::{Sample, Variable};
+use super::contents::{ReadVariable, StoredType};
 use meshbrush_core::layers::PositiveDepth;
 
 /// Most numbers for "no value" of a variable.
@@ -15,20 +15,22 @@ const EVERYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// How samples become values.
 #[derive(Clone, Debug)]
-pub(super) struct Packing {
-    unpacking: Unpacking,
+pub(super) struct SamplePacking {
+    unpacking: SampleUnpacking,
     /// What is added to negative samples that are meant without a sign; 0 where they have one.
     wrap: f64,
     positive: Option<PositiveDepth>,
 }
 
-impl Packing {
-    pub(super) fn of(variable: &Variable) -> Self {
+impl SamplePacking {
+    pub(super) fn of(variable: &ReadVariable) -> Self {
         let (scale, offset) = packing(variable);
-        let sample = variable.sample.unwrap_or(Sample::F64);
+        let sample = variable.sample.unwrap_or(StoredType::F64);
         let is_unsigned = variable.text("_Unsigned").is_some_and(|text| text.eq_ignore_ascii_case("true"));
         let wrap = match sample {
-            Sample::I8 | Sample::I16 | Sample::I32 if is_unsigned => 256f64.powi(sample.bytes() as i32),
+            StoredType::I8 | StoredType::I16 | StoredType::I32 if is_unsigned => {
+                256f64.powi(sample.bytes() as i32)
+            }
             _ => 0.0,
         };
         let number = |number: f64| if number < 0.0 { number + wrap } else { number };
@@ -39,8 +41,15 @@ impl Packing {
         let valid = valid_samples(variable, number);
         let unit = ValueUnit::named(variable.text("units").unwrap_or_default());
         let has_declared = !fill.is_empty() || !missing.is_empty();
-        let unpacking =
-            Unpacking { marks, has_declared, valid, scale, offset, unit, ..Unpacking::plain(REMEDY) };
+        let unpacking = SampleUnpacking {
+            marks,
+            has_declared,
+            valid,
+            scale,
+            offset,
+            unit,
+            ..SampleUnpacking::plain(REMEDY)
+        };
         let positive = direction(variable.text("positive"), variable.text("standard_name"));
         Self { unpacking, wrap, positive }
     }
@@ -64,7 +73,7 @@ impl Packing {
 ///
 /// Ends of the type of the samples are packed, as the samples are. Floating-point ends of packed whole
 /// numbers are values, as the NetCDF User Guide has it.
-fn valid_samples(variable: &Variable, number: impl Fn(f64) -> f64) -> [f64; 2] {
+fn valid_samples(variable: &ReadVariable, number: impl Fn(f64) -> f64) -> [f64; 2] {
     let (scale, offset) = packing(variable);
     let end = |name: &str| variable.numbers(name).first().copied();
     let range = match variable.numbers("valid_range")[..] {
@@ -73,9 +82,9 @@ fn valid_samples(variable: &Variable, number: impl Fn(f64) -> f64) -> [f64; 2] {
     };
     let ends = [end("valid_min").unwrap_or(range[0]), end("valid_max").unwrap_or(range[1])];
     let types = ["valid_range", "valid_min", "valid_max"].map(|name| variable.type_of_numbers(name));
-    let are_values = variable.sample.is_some_and(Sample::is_whole)
+    let are_values = variable.sample.is_some_and(StoredType::is_whole)
         && (scale, offset) != (1.0, 0.0)
-        && !types.into_iter().flatten().any(Sample::is_whole);
+        && !types.into_iter().flatten().any(StoredType::is_whole);
     let [least, greatest] = match are_values {
         true => ends.map(|end| (end - offset) / scale),
         false => ends.map(number),

@@ -30,12 +30,12 @@ pub(super) struct Span {
     /// Whether coordinates decrease in the file.
     pub(super) is_reversed: bool,
     /// Parts that lie together in the file. Pixels between them have no value.
-    pub(super) pieces: Vec<Piece>,
+    pub(super) pieces: Vec<PixelRun>,
 }
 
 /// Pixels that lie together in the file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Piece {
+pub(super) struct PixelRun {
     /// Their numbers in the file.
     pub(super) file: Range<u64>,
     /// The number of the first one in the span.
@@ -135,7 +135,7 @@ impl Axis {
             let start = if around > 0 { part.start.rem_euclid(around) } else { part.start } as u64;
             let count = (part.end - part.start) as u64;
             let start = if self.step < 0.0 { self.count - start - count } else { start };
-            Piece { file: start..start + count, at: (part.start - all.start) as u64 }
+            PixelRun { file: start..start + count, at: (part.start - all.start) as u64 }
         };
         Span {
             bounds: [all.start, all.end].map(|edge| low + edge as f64 * step),

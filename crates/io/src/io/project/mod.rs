@@ -148,7 +148,7 @@ pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp),
     let project = bytes().and_then(|bytes| {
         let project = parse(&bytes, meter)?;
         meter.check()?;
-        Ok((project, FileStamp::of(&bytes)))
+        Ok((project, FileStamp::from_bytes(&bytes)))
     });
     let (project, stamp) = project.map_err(|flaw| flaw.in_file(path))?;
     let document = project.into_document();
@@ -231,7 +231,7 @@ fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
     let names = &mut PartNames::default();
     let parts = &mut PartReader { archive: &archive, names, meter, polygons: None };
     let settings = saved.into_settings(parts).map_err(|flaw| match flaw.place {
-        super::Place::Part(..) => flaw,
+        super::PlaceInFile::Part(..) => flaw,
         _ => flaw.within(SETTINGS),
     })?;
     let paint = paint(&archive, &settings, meter)?;

@@ -27,13 +27,13 @@ const GEOJSON: &str = "geojson";
 #[derive(Debug)]
 pub struct RecipeFiles {
     /// The recipe is the last: it is put in place when the files are there.
-    files: Vec<(PathBuf, Content)>,
+    files: Vec<(PathBuf, ExportContent)>,
     /// Whether the document has a background picture, which recipes have no keys for.
     without_background: bool,
 }
 
 #[derive(Debug)]
-enum Content {
+enum ExportContent {
     Recipe(String),
     Polygons(Vec<Polygon>),
     Shapes(Shapes),
@@ -58,12 +58,12 @@ impl RecipeFiles {
         let mut plan = Plan::new(path);
         let Project { settings, paint } = project;
         let region = settings.domain.region().map(|region| {
-            let polygons = Content::Polygons(region.polygons().to_vec());
+            let polygons = ExportContent::Polygons(region.polygons().to_vec());
             plan.add("domain", GEOJSON, polygons)
         });
         let painted: Vec<Layer> = settings.layers.iter().filter(|l| is_painted(l, paint)).cloned().collect();
         let paint_file = (!painted.is_empty()).then(|| {
-            let stored = Content::Paint(Box::new(paint_project(settings, painted.clone(), paint)));
+            let stored = ExportContent::Paint(Box::new(paint_project(settings, painted.clone(), paint)));
             plan.add("paint", project::ENDING, stored)
         });
         let mut layers = Vec::new();
@@ -85,7 +85,7 @@ impl RecipeFiles {
         let keep_out = settings.paths.keep_out.iter().map(|region| plan.keep_out(region)).collect();
         let region = region.as_deref().unwrap_or_default();
         let recipe = SavedSettings::of(settings, region, layers, keep_out);
-        plan.files.push((path.to_owned(), Content::Recipe(to_text(&recipe))));
+        plan.files.push((path.to_owned(), ExportContent::Recipe(to_text(&recipe))));
         Self { files: plan.files, without_background: settings.background.is_some() }
     }
 
@@ -115,7 +115,7 @@ impl RecipeFiles {
                 return Err(io::Error::other(format!("{name}: {problem}")));
             }
         }
-        let draft = |(path, content): &(PathBuf, Content)| {
+        let draft = |(path, content): &(PathBuf, ExportContent)| {
             Draft::write(path, meter, |out| content.write(&mut meter.count(out)))
         };
         let drafts: Vec<Draft> = self.files.iter().map(draft).collect::<io::Result<_>>()?;
@@ -123,7 +123,7 @@ impl RecipeFiles {
     }
 }
 
-impl Content {
+impl ExportContent {
     /// Returns why it could not be read after it is written, as a sentence without its full stop.
     fn problem(&self) -> Option<String> {
         let problem = match self {
@@ -167,7 +167,7 @@ struct Plan {
     stem: String,
     taken: BTreeSet<String>,
     grids: Vec<(Arc<RasterPyramid>, AtInfinity, String)>,
-    files: Vec<(PathBuf, Content)>,
+    files: Vec<(PathBuf, ExportContent)>,
 }
 
 impl Plan {
@@ -178,7 +178,7 @@ impl Plan {
     }
 
     /// Adds a file, and returns its name.
-    fn add(&mut self, what: &str, ending: &str, content: Content) -> String {
+    fn add(&mut self, what: &str, ending: &str, content: ExportContent) -> String {
         let word = file_word(what);
         let candidates = std::iter::once(word.clone()).chain((2..).map(|n| format!("{word}-{n}")));
         let mut names = candidates.map(|word| format!("{}-{word}.{ending}", self.stem));
@@ -210,14 +210,16 @@ impl Plan {
             }
             LayerKind::Threats(threats) if threats.list().len() > MOST_IN_PLACE => {
                 saved.threats = None;
-                saved.file = Some(self.add(&layer.name, "csv", Content::Threats(threats.clone())).into());
+                saved.file =
+                    Some(self.add(&layer.name, "csv", ExportContent::Threats(threats.clone())).into());
             }
             LayerKind::Distance {
                 to: DistanceTo::Shapes { shapes, .. } | DistanceTo::Corridor { lines: shapes, .. },
                 ..
             } if point_count(shapes.list()) > MOST_IN_PLACE => {
                 saved.shapes = None;
-                saved.file = Some(self.add(&layer.name, GEOJSON, Content::Shapes(shapes.clone())).into());
+                saved.file =
+                    Some(self.add(&layer.name, GEOJSON, ExportContent::Shapes(shapes.clone())).into());
             }
             _ => {}
         }
@@ -240,7 +242,7 @@ impl Plan {
     /// Returns the name of a file for the polygons of a mask, if they are too long for the recipe.
     fn mask_file(&mut self, mask: &Mask, what: &str) -> Option<String> {
         let is_long = mask.polygons().iter().flatten().flatten().count() > MOST_IN_PLACE;
-        is_long.then(|| self.add(what, GEOJSON, Content::Polygons(mask.polygons().to_vec())))
+        is_long.then(|| self.add(what, GEOJSON, ExportContent::Polygons(mask.polygons().to_vec())))
     }
 
     /// Returns layers that read the same raster name the same file.
@@ -256,7 +258,7 @@ impl Plan {
         };
         let known = self.grids.iter().find(is_same).map(|(_, _, name)| name.clone());
         let name = known.unwrap_or_else(|| {
-            let grid = Content::Grid(source.raster.clone(), infinity);
+            let grid = ExportContent::Grid(source.raster.clone(), infinity);
             let name = self.add(&layer.name, "asc", grid);
             self.grids.push((source.raster.clone(), infinity, name.clone()));
             name

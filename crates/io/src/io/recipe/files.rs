@@ -268,7 +268,7 @@ impl Files<'_> {
             notes.into_iter().for_each(|note| LayerData::note(self, note));
             return Ok(sea.source);
         }
-        let outline = match RasterFormat::of(file) {
+        let outline = match RasterFormat::from_path(file) {
             Ok(format) => {
                 let (outline, notes) =
                     contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?;

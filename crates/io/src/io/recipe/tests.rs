@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 use crate::io::layers::SavedLayer;
 use crate::io::settings::SavedParts;
-use crate::io::{Given, Place, TextValue};
+use crate::io::{Given, PlaceInFile, TextValue};
 use meshbrush_mesh::text::LengthUnit;
 
 /// A recipe with every table and every kind of layer.
@@ -109,7 +109,7 @@ fn parsed(text: &str) -> Result<Recipe, ReadError> {
 /// Returns the place and sentence of an error, with the two lines that point.
 fn error(text: &str) -> ([usize; 2], String) {
     let error = parsed(text).expect_err(text);
-    let Place::Column { line, column } = error.place else { panic!("{text:?} gave {error}") };
+    let PlaceInFile::Column { line, column } = error.place else { panic!("{text:?} gave {error}") };
     assert!(error.to_string().starts_with(&format!("a/recipe.toml, line {line}, column {column}: ")));
     ([line, column], error.flaw.to_string())
 }

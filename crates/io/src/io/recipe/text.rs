@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::super::error::PlacedFlaw;
 use super::super::settings::SavedSettings;
 use super::super::values::TextValue;
-use super::super::{Flaw, KeyFault, Mark, Place, ReadError, Step};
+use super::super::{Flaw, KeyFault, Mark, PlaceInFile, ReadError, Step};
 use meshbrush_core::field::formula::draw_pointer;
 use meshbrush_mesh::text::excerpt;
 
@@ -41,7 +41,7 @@ impl RecipeText {
             let sentence = format!("this is not valid TOML: {}.", excerpt(300, error.message().trim()));
             self.pointing(error.span().unwrap_or(0..0), &sentence, None)
         })?;
-        SavedSettings::of_tables(TextValue::of_toml(tables.get_ref()), None)
+        SavedSettings::of_tables(TextValue::from_toml(tables.get_ref()), None)
             .map_err(|fault| self.error(&fault))
     }
 
@@ -69,7 +69,7 @@ impl RecipeText {
                 &drawn
             }
         };
-        let place = Place::Column {
+        let place = PlaceInFile::Column {
             line: text[..line_start].matches('\n').count() + 1,
             column: line[..start_in_line].chars().count() + 1,
         };

@@ -8,7 +8,7 @@ use flate2::write::ZlibEncoder;
 use serde::{Deserialize, Serialize};
 
 use super::super::project::{PartNames, Project};
-use super::saved::{SavedEdit, SavedSettings};
+use super::saved::{RecordedSettings, SavedEdit};
 use meshbrush_core::document::{Document, Example};
 
 /// Most bytes of the text that is written or read: links have a hundredth of it.
@@ -25,7 +25,7 @@ struct SavedGestures {
     example: Option<String>,
     /// The document at the start, where it was none of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    start: Option<SavedSettings>,
+    start: Option<RecordedSettings>,
     edits: Vec<SavedEdit>,
 }
 
@@ -37,7 +37,7 @@ pub fn write(document: &Document) -> Option<Vec<u8>> {
     let start = Project::of(&before);
     let example = STARTS.into_iter().find(|example| Project::of(&as_recorded(*example)) == start);
     let (mut names, mut replayed) = (PartNames::default(), before);
-    let start = SavedSettings::whole(&start, &mut names).ok()?;
+    let start = RecordedSettings::whole(&start, &mut names).ok()?;
     let mut edits = Vec::new();
     for recorded in recording.edits() {
         edits.push(SavedEdit::of(&recorded.edit, replayed.settings(), &mut names).ok()?);
@@ -83,7 +83,8 @@ pub fn read(bytes: &[u8]) -> Result<Document, String> {
             let example = STARTS.into_iter().find(|example| example.name() == name);
             let example = example.ok_or("it begins with an example that is not known.")?;
             let document = as_recorded(example);
-            SavedSettings::whole(&Project::of(&document), &mut names).map_err(|error| error.to_string())?;
+            RecordedSettings::whole(&Project::of(&document), &mut names)
+                .map_err(|error| error.to_string())?;
             document
         }
         (None, Some(start)) => {

@@ -3,10 +3,10 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
-use super::super::error::{Flaw, Place, PlacedFlaw, ReadError};
+use super::super::error::{Flaw, PlaceInFile, PlacedFlaw, ReadError};
 use super::super::json::{self, JsonFlaw};
 use super::super::project::{PartNames, Project};
-use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
+use super::saved::{RecordedMesh, SavedHead, SavedStart, SavedStep};
 use super::{FORMAT, MOST_BYTES, VERSION, too_long};
 use crate::io::disk::File;
 use meshbrush_mesh::text::excerpt;
@@ -18,7 +18,7 @@ pub struct RecordingFile {
     pub(super) start: Project,
     /// The rasters of the start.
     pub(super) names: PartNames,
-    pub(super) start_mesh: SavedMesh,
+    pub(super) start_mesh: RecordedMesh,
     pub(super) steps: Vec<SavedStep>,
 }
 
@@ -102,11 +102,11 @@ fn check_head(line: &[u8]) -> Result<(), PlacedFlaw> {
 fn parsed<T: DeserializeOwned>(line: usize, text: &[u8]) -> Result<T, PlacedFlaw> {
     json::parse(text).map_err(|JsonFlaw { sentence, column, .. }| {
         let flaw = Flaw::Syntax(format!("the line is not valid: {sentence}"));
-        PlacedFlaw { place: Place::Column { line, column }, flaw }
+        PlacedFlaw { place: PlaceInFile::Column { line, column }, flaw }
     })
 }
 
 /// Returns the flaw of a line.
 pub(super) fn at(flaw: PlacedFlaw, line: usize) -> PlacedFlaw {
-    PlacedFlaw { place: Place::Line(line), ..flaw }
+    PlacedFlaw { place: PlaceInFile::Line(line), ..flaw }
 }

@@ -2,7 +2,7 @@ use super::super::Meter;
 use super::super::error::{Flaw, PlacedFlaw, ReadError};
 use super::RecordingFile;
 use super::read::{HEAD_LINES, at};
-use super::saved::{SavedMesh, SavedStep};
+use super::saved::{RecordedMesh, SavedStep};
 use super::write::mesh_of;
 use meshbrush_core::document::Replay;
 use meshbrush_mesh::text::{Grouped, excerpt};
@@ -89,16 +89,16 @@ impl RecordingFile {
     }
 }
 
-fn triangles(mesh: &SavedMesh) -> usize {
+fn triangles(mesh: &RecordedMesh) -> usize {
     match mesh {
-        SavedMesh::Mesh { triangles, .. } => *triangles,
-        SavedMesh::NoMesh(_) => 0,
+        RecordedMesh::Mesh { triangles, .. } => *triangles,
+        RecordedMesh::NoMesh(_) => 0,
     }
 }
 
-fn difference(edit: usize, title: &str, expected: &SavedMesh, found: &SavedMesh) -> Option<Difference> {
+fn difference(edit: usize, title: &str, expected: &RecordedMesh, found: &RecordedMesh) -> Option<Difference> {
     // The reason is for people: a later program may word it otherwise.
-    let both_fail = matches!((expected, found), (SavedMesh::NoMesh(_), SavedMesh::NoMesh(_)));
+    let both_fail = matches!((expected, found), (RecordedMesh::NoMesh(_), RecordedMesh::NoMesh(_)));
     (!both_fail && expected != found).then(|| Difference {
         edit,
         title: excerpt(40, title),
@@ -107,7 +107,7 @@ fn difference(edit: usize, title: &str, expected: &SavedMesh, found: &SavedMesh)
     })
 }
 
-impl std::fmt::Display for SavedMesh {
+impl std::fmt::Display for RecordedMesh {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Mesh { fingerprint, triangles } => {

@@ -37,8 +37,8 @@ impl SavedHead {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedStart {
-    pub start: SavedSettings,
-    pub gives: SavedMesh,
+    pub start: RecordedSettings,
+    pub gives: RecordedMesh,
 }
 
 /// Any other line.
@@ -49,14 +49,14 @@ pub struct SavedStep {
     pub edit: usize,
     pub title: String,
     pub does: SavedEdit,
-    pub gives: SavedMesh,
+    pub gives: RecordedMesh,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SavedEdit {
     Stroke(SavedStroke),
-    Set(SavedSettings),
+    Set(RecordedSettings),
     /// Identifiers of the layers.
     Clear(Vec<u32>),
     CopyPaint {
@@ -70,7 +70,7 @@ pub enum SavedEdit {
 /// The mesh after an edit, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum SavedMesh {
+pub enum RecordedMesh {
     Mesh {
         /// 32 hexadecimal digits.
         fingerprint: String,
@@ -80,7 +80,7 @@ pub enum SavedMesh {
     NoMesh(String),
 }
 
-impl From<&ReplayedMesh> for SavedMesh {
+impl From<&ReplayedMesh> for RecordedMesh {
     fn from(mesh: &ReplayedMesh) -> Self {
         match mesh {
             ReplayedMesh::Mesh { fingerprint, triangles } => {
@@ -94,7 +94,7 @@ impl From<&ReplayedMesh> for SavedMesh {
 /// Settings, or changes of them.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SavedSettings {
+pub struct RecordedSettings {
     settings: SettingsValues,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     polygons: Option<Vec<SavedPolygon>>,
@@ -102,7 +102,7 @@ pub struct SavedSettings {
     pixels: Option<String>,
 }
 
-impl SavedSettings {
+impl RecordedSettings {
     /// Returns a whole document.
     ///
     /// # Errors
@@ -299,7 +299,7 @@ impl SavedEdit {
     pub fn of(edit: &Edit, before: &Settings, names: &mut PartNames) -> io::Result<Self> {
         Ok(match edit {
             Edit::Stroke(stroke) => Self::Stroke((&**stroke).into()),
-            Edit::Settings(after) => Self::Set(SavedSettings::change(before, after, names)?),
+            Edit::Settings(after) => Self::Set(RecordedSettings::change(before, after, names)?),
             Edit::Clear(layers) => Self::Clear(layers.iter().map(|layer| layer.0).collect()),
             Edit::CopyPaint { from, to } => Self::CopyPaint { from: from.0, to: to.0 },
             Edit::Undo => Self::Undo,

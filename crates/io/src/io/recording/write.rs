@@ -2,7 +2,7 @@ use std::io::{self, Write};
 
 use super::super::Meter;
 use super::super::project::{PartNames, Project};
-use super::saved::{SavedEdit, SavedHead, SavedSettings, SavedStart, SavedStep};
+use super::saved::{RecordedSettings, SavedEdit, SavedHead, SavedStart, SavedStep};
 use super::{MOST_BYTES, SLICE, too_long};
 use meshbrush_core::document::{Recording, Replay, ReplayedMesh};
 
@@ -18,7 +18,7 @@ pub fn write(out: &mut dyn Write, recording: &Recording, meter: &Meter) -> io::R
     let mut left = MOST_BYTES;
     let mut line = |content: Vec<u8>| line(out, &content, &mut left);
     line(serde_json::to_vec(&SavedHead::of_this_program())?)?;
-    let start = SavedSettings::whole(&project, names)?;
+    let start = RecordedSettings::whole(&project, names)?;
     let mut replay = Replay::new(project.settings, project.paint).map_err(io::Error::other)?;
     let gives = (&mesh_of(&mut replay, meter)?).into();
     line(serde_json::to_vec(&SavedStart { start, gives })?)?;

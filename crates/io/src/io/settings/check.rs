@@ -181,7 +181,7 @@ impl SavedDomain {
             let sentence = "this is a place in the sea beside land; name the file of the land with `land`, or leave it out.";
             return Err(KeyFault::key("sea", sentence));
         }
-        if self.land.as_ref().is_some_and(|file| RasterFormat::of(file).is_ok()) {
+        if self.land.as_ref().is_some_and(|file| RasterFormat::from_path(file).is_ok()) {
             let sentence = "this is a grid, and land is given by polygons or lines of coast: take `region` and `contour` for \
                             the water of a grid.";
             return Err(KeyFault::key("land", sentence));
@@ -277,7 +277,7 @@ impl SavedDomain {
             ("smallest_inlet", self.smallest_inlet.is_some()),
             ("outside_nodata", self.outside_nodata),
         ];
-        let is_grid = self.region.as_ref().is_some_and(|file| RasterFormat::of(file).is_ok());
+        let is_grid = self.region.as_ref().is_some_and(|file| RasterFormat::from_path(file).is_ok());
         if let Some((key, _)) = given.into_iter().find(|(_, is_given)| *is_given && !is_grid) {
             let sentence = "this is for a region that is a grid of heights or depths; name its file with `region`, or \
                             leave it out.";

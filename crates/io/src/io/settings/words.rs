@@ -129,7 +129,7 @@ impl Serialize for SavedBoundaryType {
 impl<'de> Deserialize<'de> for SavedBoundaryType {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let word = String::deserialize(deserializer)?;
-        let found = BoundaryType::of_word(&word).map(Self);
+        let found = BoundaryType::from_word(&word).map(Self);
         found.ok_or_else(|| D::Error::unknown_variant(&word, &BoundaryType::WORDS))
     }
 }

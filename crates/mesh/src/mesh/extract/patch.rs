@@ -8,9 +8,11 @@ use rayon::prelude::*;
 
 use super::Extract;
 use crate::geometry::{LatticePoint, NumberMap};
-use crate::mesh::kernel::{Kind, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId, append_pieces};
+use crate::mesh::kernel::{
+    LevelAndSide, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId, append_pieces,
+};
 
-/// The changes of a mesh before it is exported. All ids are indices into the mesh's own arrays
+/// What changes in a mesh when it is exported. All ids are indices into the mesh's own arrays
 /// ([`Mesh::raw_nodes`], [`Mesh::raw_triangles`]); added nodes follow the mesh's.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshPatch {
@@ -30,7 +32,7 @@ pub struct MeshPatch {
 pub struct PatchTriangle {
     /// Nodes, anticlockwise, the first two the ends of the longest edge.
     pub corners: [NodeId; 3],
-    /// The level of the triangle of the mesh that it takes the place of.
+    /// The level of the triangle of the mesh that it replaces.
     pub level: u32,
 }
 
@@ -49,7 +51,7 @@ impl MeshPatch {
         moved.map_or_else(|_| mesh.node(node), |n| self.moved[n].1)
     }
 
-    /// Returns whether no triangle is left of a mesh with the patch.
+    /// Returns whether a mesh with the patch has no triangle left.
     pub fn leaves_nothing_of(&self, mesh: &Mesh) -> bool {
         let replaced = self.changed.iter().filter(|(id, _)| mesh.is_in_domain(*id)).count();
         self.pieces.is_empty() && replaced == mesh.triangle_count()
@@ -66,14 +68,14 @@ impl PatchTriangle {
             vertices,
             [Neighbour::BOUNDARY; 3],
             Orientation::Anticlockwise,
-            Kind::inside(self.level),
+            LevelAndSide::inside(self.level),
         )
     }
 }
 
 impl Mesh {
-    /// Returns the part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at
-    /// the place of the triangles that they replace. All threads work on it.
+    /// Returns the part of the mesh that belongs to the domain, with the changes of a patch. Pieces take the
+    /// place of the triangles that they replace. All threads work on it.
     ///
     /// # Panics
     /// Panics when the patch is of another mesh.
@@ -103,7 +105,7 @@ impl Mesh {
 const CHUNK: usize = 1 << 13;
 
 /// Triangles of the mesh, one after the other.
-struct Chunk<'a> {
+struct ExtractChunk<'a> {
     /// The number of the first one in the mesh.
     first: usize,
     triangles: &'a [Triangle],
@@ -133,7 +135,7 @@ impl Fate<'_> {
     }
 }
 
-impl<'a> Chunk<'a> {
+impl<'a> ExtractChunk<'a> {
     /// Returns the form of each triangle of the mesh in the extract.
     fn fates(&self) -> impl Iterator<Item = Fate<'a>> {
         let mut changed = self.changed.iter().peekable();
@@ -147,13 +149,14 @@ impl<'a> Chunk<'a> {
 }
 
 /// Returns the whole mesh in chunks.
-fn chunks<'a>(mesh: &'a Mesh, patch: &'a MeshPatch) -> Vec<Chunk<'a>> {
+fn chunks<'a>(mesh: &'a Mesh, patch: &'a MeshPatch) -> Vec<ExtractChunk<'a>> {
     let mut chunks = Vec::new();
     let chunk = |(n, triangles): (usize, &'a [Triangle])| {
         let first = CHUNK * n;
         let [begin, end] = [first, first + triangles.len()]
             .map(|index| patch.changed.partition_point(|(id, _)| id.index() < index));
-        let mut chunk = Chunk { first, triangles, changed: &patch.changed[begin..end], before: 0, count: 0 };
+        let mut chunk =
+            ExtractChunk { first, triangles, changed: &patch.changed[begin..end], before: 0, count: 0 };
         chunk.count = chunk.fates().map(|fate| fate.count()).sum();
         chunk
     };
@@ -167,7 +170,7 @@ fn chunks<'a>(mesh: &'a Mesh, patch: &'a MeshPatch) -> Vec<Chunk<'a>> {
 }
 
 /// Returns for each triangle of the mesh its number in the extract, if it is in the domain and unchanged.
-fn places(mesh: &Mesh, chunks: &[Chunk]) -> Vec<Neighbour> {
+fn places(mesh: &Mesh, chunks: &[ExtractChunk]) -> Vec<Neighbour> {
     let mut places = vec![Neighbour::BOUNDARY; mesh.triangles.len()];
     places.par_chunks_mut(CHUNK).zip(chunks).for_each(|(places, chunk)| {
         let mut next = chunk.before;
@@ -183,7 +186,7 @@ fn places(mesh: &Mesh, chunks: &[Chunk]) -> Vec<Neighbour> {
 
 /// Returns the triangles with their neighbours by their numbers in the extract, and nodes by their ids in the
 /// mesh.
-fn assemble(mesh: &Mesh, patch: &MeshPatch, chunks: &[Chunk], places: &[Neighbour]) -> Vec<Triangle> {
+fn assemble(mesh: &Mesh, patch: &MeshPatch, chunks: &[ExtractChunk], places: &[Neighbour]) -> Vec<Triangle> {
     let mut is_changed = vec![false; mesh.triangles.len()];
     patch.changed.iter().for_each(|(id, _)| is_changed[id.index()] = true);
     let (mut triangles, mut unjoined) = (Vec::new(), Vec::new());
@@ -208,7 +211,7 @@ struct Assembly {
 }
 
 impl Assembly {
-    fn of(chunk: &Chunk, patch: &MeshPatch, places: &[Neighbour], is_changed: &[bool]) -> Self {
+    fn of(chunk: &ExtractChunk, patch: &MeshPatch, places: &[Neighbour], is_changed: &[bool]) -> Self {
         let (mut triangles, mut unjoined) = (Vec::with_capacity(chunk.count), Vec::new());
         for fate in chunk.fates() {
             match fate {
@@ -236,7 +239,7 @@ impl Assembly {
     }
 }
 
-/// Makes neighbours of triangles that have an edge in common, in opposite directions.
+/// Links triangles that share an edge, in opposite directions, as neighbours.
 fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
     // Edges with one known triangle.
     let mut open: NumberMap<(NodeId, NodeId), (usize, usize)> = NumberMap::default();

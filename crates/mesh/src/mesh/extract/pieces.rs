@@ -14,9 +14,9 @@ use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId
 ///               o---o---o
 /// ```
 ///
-/// The mesh may change before the patch is derived again. The pieces of those who keep a patch in step with
-/// the mesh take the place of the former ones ([`Self::replace`]). Without them, the pieces in place of
-/// changed entries are *retired* ([`Self::retire`]), and the entries themselves are drawn. Where such an
+/// The mesh may change before the patch is derived again. Whoever keeps a patch in step with the mesh
+/// replaces the former pieces by those of the new patch ([`Self::replace`]). Otherwise, the pieces in place
+/// of changed entries are *retired* ([`Self::retire`]), and the entries themselves are drawn. Where such an
 /// entry has a node that the patch moved, a *provisional* piece is drawn instead, with the node where the
 /// patch has it: the mesh has no gaps beside the other pieces.
 #[derive(Clone, Debug, Default)]
@@ -175,8 +175,8 @@ impl PatchPieces {
         touched
     }
 
-    /// Returns the triangles of a range that may be replaced. The time is that of the fewer: of the range, or
-    /// of those that are.
+    /// Returns the triangles of a range that may be replaced. Takes time proportional to the range or to the
+    /// number of replaced triangles, whichever is smaller.
     fn replaced_within(&self, ids: &Range<usize>) -> Vec<TriangleId> {
         let first = self.replaced.partition_point(|(id, _)| id.index() < ids.start);
         let earlier = self.replaced[first..].iter().map(|(id, _)| *id);

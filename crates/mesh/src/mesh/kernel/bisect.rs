@@ -16,7 +16,8 @@
 //!
 //! A parent is matched when k = 1 and O = 0, or k = 2 and O = 1 ([`Triangle::matched`]).
 //!
-//! All of it is inlined by force, as generation spends half of its time here: calls cost a tenth of it.
+//! Everything here is `#[inline(always)]`: half of the time of generation is spent here, and calls alone cost
+//! 10 % of it.
 
 use std::hint::select_unpredictable;
 
@@ -52,8 +53,8 @@ impl Mesh {
     #[inline(always)]
     pub(in crate::mesh) fn bisect_pair(&mut self, a: TriangleId, b: TriangleId) {
         let midpoint = self.push_midpoint(a);
-        self.counts.bisected(self.triangle(a).kind());
-        self.counts.bisected(self.triangle(b).kind());
+        self.counts.bisected(self.triangle(a).level_and_side());
+        self.counts.bisected(self.triangle(b).level_and_side());
         let new_a = TriangleId::from_index(self.triangles.len());
         let new_b = TriangleId::from_index(self.triangles.len() + 1);
         // Parents that begin with the same vertex keep their children on the same half.
@@ -71,7 +72,7 @@ impl Mesh {
     #[inline(always)]
     pub(in crate::mesh) fn bisect_at_boundary(&mut self, id: TriangleId) {
         let midpoint = self.push_midpoint(id);
-        self.counts.bisected(self.triangle(id).kind());
+        self.counts.bisected(self.triangle(id).level_and_side());
         let boundary = Neighbour::BOUNDARY;
         self.bisect_side(id, midpoint, Facing { kept: boundary, new: boundary });
     }
@@ -105,7 +106,7 @@ impl Mesh {
         let [kept_vertices, new_vertices] = children_vertices(t.vertices, midpoint, odd);
         // Algorithm 1: at odd levels the second child is the mirror image of its parent.
         let new_orientation = if odd { t.orientation().reversed() } else { t.orientation() };
-        let kind = t.kind().finer();
+        let kind = t.level_and_side().finer();
         self.triangles[parent.index()] = Triangle::new(kept_vertices, kept_sees, t.orientation(), kind);
         self.triangles.push(Triangle::new(new_vertices, new_sees, new_orientation, kind));
         // The one node that the parent's entry loses; the new child has it.

@@ -4,15 +4,14 @@ use std::ops::Range;
 
 /// A set of places in an array, as bits, quick to change and to read from either end.
 ///
-/// Above the bits stand three layers that say which words below are not empty, 64 to a bit. So an empty set
-/// is seen at once, and going through a small set in a large array costs no more than in a small one. An
-/// eighth of a byte for each place.
+/// Three layers above the bits say which words below are not empty, 64 bits to one. So an empty set is
+/// recognized at once, and iterating over a small set costs no more in a large array than in a small one. The
+/// set takes an eighth of a byte for each place.
 #[derive(Clone, Debug, Default)]
 pub(in crate::mesh) struct Bitset {
     layers: [Vec<u64>; LAYERS],
     count: usize,
-    /// No word of bits behind this one has any: near at hand when the last place is asked for again and
-    /// again.
+    /// No word of bits after this one has any: this makes it cheap to ask for the last place repeatedly.
     last_word: usize,
 }
 
@@ -62,7 +61,7 @@ impl Bitset {
 
     #[cold]
     fn make_room(&mut self, place: usize) {
-        // Doubling, so that growing by one place at a time costs little.
+        // Doubles, so that growing by one place at a time is cheap.
         let mut words = (place / 64 + 1).max(2 * self.layers[0].len());
         for layer in &mut self.layers {
             layer.resize(words, 0);
@@ -93,7 +92,7 @@ impl Bitset {
         }
     }
 
-    /// The entry at a place took another one's: its mark goes with it.
+    /// An entry has moved from one place to another: its mark moves with it.
     #[inline]
     pub(in crate::mesh) fn moved(&mut self, from: usize, to: usize) {
         if self.remove(from) {

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use super::{Bitset, Mesh, NodeId, TriangleId};
 
-/// Which entries of a mesh's two arrays differ from what they were when this was last asked.
+/// Which entries of a mesh's two arrays have changed since the last time this was asked.
 ///
 /// Ranges count entries of the arrays as they are now; they ascend and do not touch. Entries that are new are
 /// among them; an array may also have become shorter.
@@ -22,7 +22,7 @@ impl Changes {
     }
 }
 
-/// Both lists of ranges as one that ascends and has no gaps of no length, up to `end`.
+/// Merges both lists of ranges into one that ascends, in which no two ranges touch, up to `end`.
 fn join(ranges: &mut Vec<Range<usize>>, later: &[Range<usize>], end: usize) {
     ranges.extend_from_slice(later);
     ranges.sort_unstable_by_key(|range| range.start);
@@ -59,7 +59,7 @@ impl ChangeLog {
         self.triangles.insert(id.index());
     }
 
-    /// To be called for every change: it may be that an array became shorter, and nothing else.
+    /// Must be called for every change, even if an array only became shorter.
     #[inline]
     pub(super) fn step(&mut self) {
         self.steps += 1;

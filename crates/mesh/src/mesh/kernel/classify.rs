@@ -1,15 +1,15 @@
 //! Triangles outside the domain.
 //!
-//! Where the boundary is met by refinement, the coarse grid covers the whole rectangle, and what lies outside
-//! the domain is sorted out when all is refined. Those triangles are not removed: they hold up their
-//! neighbours. So the mesh is updated in place, and a point is located in it, as if there were no boundary.
-//! They only bear a mark, and counts, fingerprint, location and exports leave them out.
+//! Where the boundary is met by refinement, the coarse grid covers the whole rectangle, and triangles outside
+//! the domain are found once the mesh is refined. They are not removed, so that their neighbours stay
+//! conforming: the mesh is updated in place, and points are located in it, as if there were no boundary.
+//! These triangles are only marked, and counts, fingerprint, location and exports leave them out.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{Diameters, Element, Kind, Mesh, Neighbour, Triangle, TriangleId};
+use super::{Diameters, Element, LevelAndSide, Mesh, Neighbour, Triangle, TriangleId};
 
 impl Mesh {
     /// Returns how many triangles belong to the domain.
@@ -58,14 +58,14 @@ impl Mesh {
         let diameters = Diameters::of(self);
         let Self { lattice, nodes, triangles, .. } = self;
         let classify = |part: &mut [Triangle]| {
-            let mut moves = [0i32; Kind::COUNT];
+            let mut moves = [0i32; LevelAndSide::COUNT];
             for triangle in part {
                 let corners = triangle.vertices.map(|node| nodes[node.index()]);
                 let element = Element::new(triangle, corners, lattice, &diameters);
-                let (before, outside) = (triangle.kind(), is_outside(&element));
+                let (before, outside) = (triangle.level_and_side(), is_outside(&element));
                 triangle.set_outside(outside);
                 moves[before.index()] -= 1;
-                moves[triangle.kind().index()] += 1;
+                moves[triangle.level_and_side().index()] += 1;
             }
             moves
         };

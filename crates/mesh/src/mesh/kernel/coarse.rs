@@ -5,7 +5,9 @@ use std::fmt;
 
 use glam::DVec2;
 
-use super::{Kind, KindCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
+use super::{
+    LevelAndSide, LevelAndSideCounts, Limits, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId,
+};
 use crate::geometry::{GridError, Lattice, LatticePoint};
 use crate::text::Number;
 
@@ -135,14 +137,14 @@ impl<'a> CoarseGrid<'a> {
                     Some(id) => id.into(),
                     None => Neighbour::BOUNDARY,
                 });
-                Triangle::new(vertices, neighbours, Orientation::Anticlockwise, Kind::inside(0))
+                Triangle::new(vertices, neighbours, Orientation::Anticlockwise, LevelAndSide::inside(0))
             })
             .collect();
         let mut triangle_at = vec![TriangleId(0); nodes.len()];
         for (index, vertex) in triangles.iter().enumerate().flat_map(|(i, t)| t.vertices.map(|v| (i, v))) {
             triangle_at[vertex.index()] = TriangleId::from_index(index);
         }
-        let counts = KindCounts::coarse(triangles.len());
+        let counts = LevelAndSideCounts::coarse(triangles.len());
         Mesh { lattice: *self.lattice, nodes, triangles, triangle_at, counts, coarse }
     }
 

@@ -1,4 +1,4 @@
-//! Taking bisections back: the table of `bisect` read from right to left.
+//! Coarsening: bisections are undone by the table of `bisect`, read from right to left.
 //!
 //! A node can go when it is the newest vertex of every triangle around it [ChenZhang2010]: two pairs of
 //! siblings, or one pair at the boundary.
@@ -39,8 +39,8 @@
 //! below or above m with both coordinates on the same side, and all triangles run anticlockwise, so that of
 //! the two children at level 2 the kept one does, and the new one, a mirror image, does not.
 //!
-//! So the lattice knows the vertices of every triangle in their order: a mesh refined again after it was
-//! coarsened has the same triangles as one that never was, up to their numbers.
+//! So the lattice determines the vertices of every triangle and their order: a mesh that is coarsened and
+//! refined again has the same triangles as one that never was coarsened, up to their numbers.
 
 use std::ops::Range;
 
@@ -68,8 +68,8 @@ impl Siblings {
     }
 }
 
-/// All triangles around a node that is the newest vertex of each: what a bisection left behind, and nothing
-/// has cut since.
+/// All triangles around a node that is the newest vertex of each: those that a bisection made, if none of
+/// them has been bisected since.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::mesh) struct Star {
     centre: NodeId,
@@ -196,7 +196,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the parents of a star, to be put back by [`Self::merge`].
+    /// Returns the parents of a star, for [`Self::merge`] to restore.
     #[inline]
     pub(in crate::mesh) fn parents(&self, star: &Star) -> [Option<Triangle>; 2] {
         let across = |side: Siblings| Neighbour::from(side.place());
@@ -208,7 +208,7 @@ impl Mesh {
     #[inline]
     fn parent(&self, Siblings { kept, new }: Siblings, across: Neighbour) -> Triangle {
         let (kept, new) = (self.triangle(kept), self.triangle(new));
-        let kind = kept.kind().coarser();
+        let kind = kept.level_and_side().coarser();
         let [a, ..] = kept.vertices;
         let vertices = if kind.level().is_multiple_of(2) {
             [a, new.vertices[0], new.vertices[1]]
@@ -222,7 +222,7 @@ impl Mesh {
         parent
     }
 
-    /// Puts the parents of a star back, which [`Self::parents`] gave.
+    /// Restores the parents of a star, which [`Self::parents`] returned.
     ///
     /// ```text
     ///          o                       o
@@ -244,8 +244,8 @@ impl Mesh {
                 let noted = &mut self.triangle_at[vertex.index()];
                 *noted = if *noted == freed { place } else { *noted };
             }
-            let children = [place, freed].map(|id| self.triangle(id).kind());
-            self.counts.merged(children, parent.kind());
+            let children = [place, freed].map(|id| self.triangle(id).level_and_side());
+            self.counts.merged(children, parent.level_and_side());
             self.triangles[place.index()] = *parent;
             log.triangle(place);
         }
@@ -284,7 +284,7 @@ impl Mesh {
         log.triangles.truncate(left);
     }
 
-    /// Removes nodes that no triangle has any more, given as ascending ranges. The last nodes take their
+    /// Removes nodes that no triangle uses any more, given as ascending ranges. The last nodes take their
     /// places.
     pub(super) fn remove_nodes(&mut self, freed: &[Range<usize>], log: &mut ChangeLog) {
         let (left, moves) = closing_moves(freed, self.nodes.len());

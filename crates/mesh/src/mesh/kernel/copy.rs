@@ -2,21 +2,21 @@
 
 use super::{Mesh, Progress, memory};
 
-/// Copies a mesh that must not change meanwhile, in slices.
+/// Copies a mesh in slices. The mesh must not change in the meantime.
 ///
 /// ```text
 ///  source  ████████████████████████
 ///  copy    ██████████░░░░░░░░░░░░░░   each slice appends entries to the arrays of triangles and nodes
 /// ```
 ///
-/// Memory is reserved at once, which takes no time: it is taken as it is written.
+/// Memory is reserved in one step, which takes no time: it is used only as it is written.
 #[derive(Clone, Debug)]
 pub struct MeshCopy {
     copy: Mesh,
 }
 
-/// Entries of each array that are copied for one unit of the budget: a unit is about the time of a visit to a
-/// triangle.
+/// Number of entries of each array that are copied for one unit of the budget, which is about the time of a
+/// visit to a triangle.
 const ENTRIES_PER_UNIT: usize = 8;
 
 impl MeshCopy {

@@ -70,7 +70,7 @@ impl Mesh {
         Element { triangle, corners, lattice: &self.lattice, diameter: self.diameter(triangle.level()) }
     }
 
-    /// Returns the result of [`Self::element`], from a table of the diameters of all levels.
+    /// Returns the same as [`Self::element`], using a table of the diameters of all levels.
     #[inline]
     pub(in crate::mesh) fn element_with(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
         self.element_of(self.triangle(id), diameters)

@@ -72,7 +72,7 @@ impl Neighbour {
         if self.0 == Self::BOUNDARY.0 { None } else { Some(TriangleId(self.0)) }
     }
 
-    /// Returns the entry so many places behind; only of triangles.
+    /// Returns the entry `places` places further on; only for triangles.
     #[inline]
     pub(super) const fn behind(self, places: u32) -> Self {
         Self(self.0.wrapping_add(places))

@@ -78,11 +78,11 @@ impl MemoryLimit {
     /// The most bytes that a triangle takes while a mesh is made, and nothing else.
     pub const ONE_MESH_MADE: usize = IN_THE_MESH + WHILE_MADE;
 
-    /// The most bytes that a triangle of a mesh takes that is made once and written.
+    /// The most bytes per triangle of a mesh that is made once and written.
     pub const ONE_MESH: usize = IN_THE_MESH + WHILE_WRITTEN;
 
-    /// The most bytes that a triangle takes of a mesh that is updated in place, or made again beside the one
-    /// that is shown.
+    /// The most bytes per triangle of a mesh that is updated in place, or rebuilt beside the one that is
+    /// shown.
     pub const TWO_MESHES: usize = 2 * IN_THE_MESH + WHILE_MADE + WHILE_UPDATED;
 
     /// Returns the limit for a mesh that is made once, with `bytes` of memory.
@@ -90,8 +90,8 @@ impl MemoryLimit {
         Self { bytes, per_triangle: Self::ONE_MESH }
     }
 
-    /// Returns the limit for a mesh that is updated in place, or made again beside the shown one, with
-    /// `bytes` of memory.
+    /// Returns the limit for a mesh that is updated in place, or rebuilt beside the shown one, with `bytes`
+    /// of memory.
     pub fn for_two_meshes(bytes: usize) -> Self {
         Self { bytes, per_triangle: Self::TWO_MESHES }
     }

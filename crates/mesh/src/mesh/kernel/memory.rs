@@ -34,7 +34,7 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// Gives the memory back that a larger mesh has left behind, but for room to double.
+    /// Returns to the system the memory that a larger mesh has left behind, but keeps room to double.
     #[cold]
     pub(in crate::mesh) fn give_memory_back(&mut self) {
         self.triangles.shrink_to(2 * self.triangles.len());
@@ -71,7 +71,7 @@ pub(in crate::mesh) fn try_make_room<T>(
     let (size, most) = (size_of::<T>(), most.max(array.len() + more));
     // Windows charges for a reservation as if it were used, and WebAssembly takes the memory at once.
     if !cfg!(any(windows, target_family = "wasm")) && size * 2 * (array.len() + more) > PAGE {
-        // The system may refuse to promise so much: ask for less, down to doubling.
+        // The system may refuse to promise that much: ask for less, down to doubling.
         let mut wanted = most;
         while wanted > 2 * array.len() + more {
             if may_fail(|| array.try_reserve_exact(wanted - array.len())).is_ok() {
@@ -99,7 +99,7 @@ fn may_fail<T>(reserve: impl FnOnce() -> T) -> T {
 }
 
 /// The allocator of the program: that of the system. When the system has no more memory, it ends the program
-/// with a sentence and exit status 1, where Rust's usual way is to abort.
+/// with a sentence and exit status 1, where Rust would abort by default.
 #[derive(Debug)]
 pub struct ProgramAllocator;
 
@@ -129,16 +129,16 @@ fn free(bytes: usize) {
 }
 
 impl ProgramAllocator {
-    /// Limits the memory of this process from now on, in bytes. Beyond the limit it is as if the system had
-    /// no more memory.
+    /// Limits the memory of this process from now on, in bytes. Beyond the limit, the program behaves as if
+    /// the system had no more memory.
     pub fn limit(bytes: usize) {
         USED.store(0, Ordering::Relaxed);
         LIMIT.store(bytes.min(isize::MAX as usize), Ordering::Relaxed);
     }
 
-    /// Has large arrays go back to the system when they are freed. The allocator of GNU/Linux would keep
-    /// those of up to 32 MiB once some were freed: after a path through two million triangles, a quarter of
-    /// the memory of the program.
+    /// Makes large arrays return to the system when they are freed. Once some were freed, the allocator of
+    /// GNU/Linux would keep those of up to 32 MiB: a quarter of the memory of the program after a path
+    /// through two million triangles.
     pub fn give_large_arrays_back() {
         // SAFETY: this only sets the size from which the allocator maps pages for an allocation of its own.
         #[cfg(all(target_os = "linux", target_env = "gnu"))]
@@ -233,16 +233,16 @@ fn advise_large_pages<T>(array: &mut Vec<T>) {
 fn advise_large_pages<T>(_array: &mut Vec<T>) {}
 
 /// A part of the room behind an array, to be filled from its beginning.
-pub(in crate::mesh) struct Piece<'a, T> {
+pub(in crate::mesh) struct SpareRoom<'a, T> {
     slots: &'a mut [MaybeUninit<T>],
     filled: usize,
 }
 
-impl<T: Copy> Piece<'_, T> {
+impl<T: Copy> SpareRoom<'_, T> {
     /// Fills the next places.
     ///
     /// # Panics
-    /// Panics when the piece has less room.
+    /// Panics when there is less room.
     pub(in crate::mesh) fn extend(&mut self, values: impl ExactSizeIterator<Item = T>) {
         let count = values.len();
         let places = &mut self.slots[self.filled..self.filled + count];
@@ -261,7 +261,7 @@ impl<T: Copy> Piece<'_, T> {
 pub(in crate::mesh) fn append_pieces<T: Copy>(
     array: &mut Vec<T>,
     lengths: impl Iterator<Item = usize> + Clone,
-    fill: impl FnOnce(&mut [T], &mut [Piece<T>]),
+    fill: impl FnOnce(&mut [T], &mut [SpareRoom<T>]),
 ) {
     let total = lengths.clone().sum();
     array.reserve(total);
@@ -270,7 +270,7 @@ pub(in crate::mesh) fn append_pieces<T: Copy>(
     let mut pieces = Vec::new();
     for length in lengths {
         let (slots, rest) = room.split_at_mut(length);
-        pieces.push(Piece { slots, filled: 0 });
+        pieces.push(SpareRoom { slots, filled: 0 });
         room = rest;
     }
     assert!(room.is_empty(), "the lengths are the same each time");

@@ -51,7 +51,7 @@ pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::{append_pieces, make_room};
 pub(in crate::mesh) use questions::{Questions, any_exceeds, ask_all};
 pub(in crate::mesh) use search::{RectSearch, WalkStarts};
-pub(in crate::mesh) use triangle::Kind;
+pub(in crate::mesh) use triangle::LevelAndSide;
 pub(in crate::mesh) use walk::WalkEnd;
 
 /// The deepest level of any lattice.
@@ -67,13 +67,14 @@ pub(in crate::mesh) const DEEPEST_LEVEL: usize = 2 * LATTICE_BITS as usize;
 /// 2. *Orientation*: vertices run the way that the triangle says.
 /// 3. *Neighbours*: edge j is shared with neighbour j and with no other triangle; the other triangle says the
 ///    same.
-/// 4. *Compatible*: an edge without a neighbour belongs to one triangle only and has no node in its middle.
+/// 4. *Compatible* (conforming): an edge without a neighbour belongs to one triangle only and has no hanging
+///    node in its middle.
 /// 5. *Graded*: neighbours differ by at most one level.
 /// 6. *Area*: the triangles cover exactly the coarse triangles that were kept.
 /// 7. *Nodes*: every node is a vertex of some triangle, and no two nodes coincide.
 /// 8. *Buckets*: the entry with a coarse triangle's index lies in that coarse triangle.
-/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and class are
-///    counted right.
+/// 9. *Ledgers*: the triangle noted for a node has that node, and the triangles of each level and side of the
+///    boundary are counted right.
 ///
 /// The tenth, that no triangle exceeds its target (Eq. 14), needs the rule: [`Mesh::unsatisfied`].
 #[derive(Debug)]
@@ -83,7 +84,7 @@ pub struct Mesh {
     pub(in crate::mesh) triangles: Vec<Triangle>,
     /// For each node one of the triangles around it.
     pub(in crate::mesh) triangle_at: Vec<TriangleId>,
-    pub(in crate::mesh) counts: KindCounts,
+    pub(in crate::mesh) counts: LevelAndSideCounts,
     pub(in crate::mesh) coarse: CoarseIndex,
 }
 
@@ -196,28 +197,28 @@ impl Mesh {
     }
 }
 
-/// Triangles by level and class, kept up to date with every bisection and every merger.
+/// Triangles by level and side of the boundary, kept up to date with every bisection and every merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::mesh) struct KindCounts(pub(in crate::mesh) [u32; Kind::COUNT]);
+pub(in crate::mesh) struct LevelAndSideCounts(pub(in crate::mesh) [u32; LevelAndSide::COUNT]);
 
-impl KindCounts {
+impl LevelAndSideCounts {
     /// Returns the counts of a mesh of this many coarse triangles.
     fn coarse(triangles: usize) -> Self {
-        let mut counts = [0; Kind::COUNT];
+        let mut counts = [0; LevelAndSide::COUNT];
         counts[0] = triangles as u32;
         Self(counts)
     }
 
-    /// Counts the bisection of a parent of this kind.
+    /// Counts the bisection of a parent.
     #[inline]
-    fn bisected(&mut self, parent: Kind) {
+    fn bisected(&mut self, parent: LevelAndSide) {
         self.0[parent.index()] -= 1;
         self.0[parent.finer().index()] += 2;
     }
 
-    /// Counts the merger of children, which may be of any class, into a parent of this kind.
+    /// Counts the merger of two children, which may be on either side of the boundary, into their parent.
     #[inline]
-    fn merged(&mut self, children: [Kind; 2], parent: Kind) {
+    fn merged(&mut self, children: [LevelAndSide; 2], parent: LevelAndSide) {
         for child in children {
             self.0[child.index()] -= 1;
         }
@@ -226,31 +227,31 @@ impl KindCounts {
 
     /// Returns the triangles outside the domain, by level.
     fn outside(&self) -> impl Iterator<Item = u32> {
-        self.0[Kind::COUNT / 2..].iter().copied()
+        self.0[LevelAndSide::COUNT / 2..].iter().copied()
     }
 
-    /// Counts one more triangle of this kind.
-    fn add(&mut self, kind: Kind) {
-        self.0[kind.index()] += 1;
+    /// Counts one more triangle.
+    fn add(&mut self, triangle: LevelAndSide) {
+        self.0[triangle.index()] += 1;
     }
 
-    /// Counts `count` more triangles of this kind.
-    fn add_many(&mut self, kind: Kind, count: u32) {
-        self.0[kind.index()] += count;
+    /// Counts `count` more triangles of one level and side.
+    fn add_many(&mut self, triangles: LevelAndSide, count: u32) {
+        self.0[triangles.index()] += count;
     }
 
-    /// Counts triangles that changed their class: by how much there are more of each kind.
-    fn add_moves(&mut self, moves: &[i32; Kind::COUNT]) {
+    /// Counts triangles that changed sides: `moves` says how many more there are of each level and side.
+    fn add_moves(&mut self, moves: &[i32; LevelAndSide::COUNT]) {
         for (count, moves) in self.0.iter_mut().zip(moves) {
             *count = count.wrapping_add_signed(*moves);
         }
     }
 }
 
-impl Default for KindCounts {
+impl Default for LevelAndSideCounts {
     /// Returns the counts of a mesh without triangles.
     fn default() -> Self {
-        Self([0; Kind::COUNT])
+        Self([0; LevelAndSide::COUNT])
     }
 }
 

@@ -46,7 +46,7 @@ impl Refiner {
         refiner
     }
 
-    /// Starts again, for any mesh, in the memory of the work before.
+    /// Starts again, for any mesh, and reuses the memory of the previous work.
     ///
     /// Together with `clone_from` of the coarse mesh this builds a mesh again at the speed of the cache; new
     /// memory costs about as much time as the work.
@@ -165,7 +165,7 @@ impl WorkList {
         (self.current != Self::END).then_some(TriangleId(self.current))
     }
 
-    /// The current triangle is done with; go on to the next.
+    /// The current triangle is done; continues with the next.
     #[inline]
     fn next(&mut self) {
         let next = std::mem::replace(&mut self.after[self.current as usize], Self::PASSED);

@@ -25,7 +25,7 @@ impl WalkStarts {
         id
     }
 
-    /// Forgets all of them: entries of the mesh have moved, or it is another mesh.
+    /// Forgets all of them, because entries of the mesh have moved or it is another mesh.
     pub(in crate::mesh) fn clear(&mut self) {
         self.0.clear();
     }
@@ -65,18 +65,18 @@ impl RectSearch {
         Self { area, levels, columns, rows, next: 0, found: Vec::new() }
     }
 
-    /// Returns a triangle found that the search has not gone on from, if there is one.
+    /// Returns a triangle that was found and from which the search has not continued yet, if there is one.
     pub(in crate::mesh) fn found(&self) -> Option<TriangleId> {
         self.found.last().copied()
     }
 
-    /// Returns whether triangles of a level are searched for, and not only passed by.
+    /// Returns whether triangles of a level are searched for, or only passed through.
     #[inline]
     pub(in crate::mesh) fn has_level(&self, level: u32) -> bool {
         level < self.levels
     }
 
-    /// Goes on from the triangle that [`Self::found`] gave, to its neighbours.
+    /// Continues from the triangle that [`Self::found`] returned to its neighbours.
     #[inline]
     pub(in crate::mesh) fn spread_from(&mut self, mesh: &Mesh, id: TriangleId, reached: &mut Bitset) {
         self.found.pop();

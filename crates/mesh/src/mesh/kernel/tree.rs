@@ -28,7 +28,7 @@ impl TreeTriangle {
     ///
     /// # Panics
     /// Panics when the id is not of this mesh.
-    pub fn of(mesh: &Mesh, id: TriangleId) -> Self {
+    pub fn from_mesh(mesh: &Mesh, id: TriangleId) -> Self {
         let triangle = mesh.triangle(id);
         let ends = triangle.bisection_edge().map(|end| mesh.node(end));
         Self { apex: mesh.node(triangle.apex()), ends, level: triangle.level() }
@@ -83,7 +83,7 @@ impl TreeTriangle {
         children.into_iter().find(|child| !child.is_same(self))
     }
 
-    /// Returns the triangles that this one is part of, from the coarse one to its parent.
+    /// Returns the ancestors of this triangle, from the coarse one to its parent.
     pub fn ancestors(&self, lattice: &Lattice) -> Vec<Self> {
         let mut ancestors: Vec<_> =
             std::iter::successors(self.parent(lattice), |triangle| triangle.parent(lattice)).collect();

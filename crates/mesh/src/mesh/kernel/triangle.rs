@@ -20,22 +20,22 @@ pub struct Triangle {
     /// [`Mesh::neighbours`](crate::mesh::Mesh::neighbours).
     pub raw_neighbours: [Neighbour; 3],
     orientation: u32,
-    kind: Kind,
+    level_and_side: LevelAndSide,
 }
 
-/// Level and class of a triangle in one word: the level, plus [`Kind::OUTSIDE`] where it lies outside the
-/// domain.
+/// The level of a triangle and its side of the boundary in one word: the level, plus
+/// [`LevelAndSide::OUTSIDE`] where the triangle lies outside the domain.
 ///
-/// Children are of their parent's class until they are classified themselves.
+/// Children are on their parent's side until they are classified themselves.
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
-pub(in crate::mesh) struct Kind(u32);
+pub(in crate::mesh) struct LevelAndSide(u32);
 
-impl Kind {
+impl LevelAndSide {
     /// More than any level: the GPU's shader knows this number too.
     const OUTSIDE: u32 = 64;
-    /// How many kinds there can be.
+    /// How many values there can be.
     pub(in crate::mesh) const COUNT: usize = 2 * Self::OUTSIDE as usize;
 
     #[inline]
@@ -58,25 +58,25 @@ impl Kind {
         self.0 >= Self::OUTSIDE
     }
 
-    /// Returns the kind of the children.
+    /// Returns the level and side of the children.
     #[inline]
     pub(in crate::mesh) const fn finer(self) -> Self {
         Self(self.0 + 1)
     }
 
-    /// Returns the kind of descendants so many levels down.
+    /// Returns the level and side of descendants `levels` levels down.
     #[inline]
     pub(in crate::mesh) const fn finer_by(self, levels: u32) -> Self {
         Self(self.0 + levels)
     }
 
-    /// Returns the kind of the parent.
+    /// Returns the level and side of the parent.
     #[inline]
     pub(in crate::mesh) const fn coarser(self) -> Self {
         Self(self.0 - 1)
     }
 
-    /// Returns the place in a table of all kinds.
+    /// Returns the index in a table of all values.
     #[inline]
     pub(in crate::mesh) const fn index(self) -> usize {
         self.0 as usize
@@ -109,9 +109,9 @@ impl Triangle {
         vertices: [NodeId; 3],
         neighbours: [Neighbour; 3],
         orientation: Orientation,
-        kind: Kind,
+        level_and_side: LevelAndSide,
     ) -> Self {
-        Self { vertices, raw_neighbours: neighbours, orientation: orientation as u32, kind }
+        Self { vertices, raw_neighbours: neighbours, orientation: orientation as u32, level_and_side }
     }
 
     /// Returns this triangle with the vertices and neighbours that it has in another mesh.
@@ -120,9 +120,9 @@ impl Triangle {
         &self,
         vertices: [NodeId; 3],
         neighbours: [Neighbour; 3],
-        kind: Kind,
+        level_and_side: LevelAndSide,
     ) -> Self {
-        Self { vertices, raw_neighbours: neighbours, kind, ..*self }
+        Self { vertices, raw_neighbours: neighbours, level_and_side, ..*self }
     }
 
     /// Returns how many bisections made this triangle from a coarse one, L(t).
@@ -130,24 +130,25 @@ impl Triangle {
     #[doc(alias = "depth")]
     #[inline]
     pub const fn level(&self) -> u32 {
-        self.kind.level()
+        self.level_and_side.level()
     }
 
-    /// Returns whether the triangle is there only to hold up its neighbours, and lies outside the domain
-    /// ([`Mesh::classify`](crate::mesh::Mesh::classify)).
+    /// Returns whether the triangle lies outside the domain
+    /// ([`Mesh::classify`](crate::mesh::Mesh::classify)) and is kept only so that its neighbours stay
+    /// conforming.
     #[inline]
     pub const fn is_outside(&self) -> bool {
-        self.kind.is_outside()
+        self.level_and_side.is_outside()
     }
 
     #[inline]
-    pub(in crate::mesh) const fn kind(&self) -> Kind {
-        self.kind
+    pub(in crate::mesh) const fn level_and_side(&self) -> LevelAndSide {
+        self.level_and_side
     }
 
     #[inline]
     pub(in crate::mesh) fn set_outside(&mut self, outside: bool) {
-        self.kind = self.kind.with_outside(outside);
+        self.level_and_side = self.level_and_side.with_outside(outside);
     }
 
     /// Which way [`Self::vertices`] run, O(t).
@@ -161,7 +162,7 @@ impl Triangle {
     /// This is k of the report, counted from zero: 2 at even levels, 1 at odd levels.
     #[inline]
     pub const fn bisection_end(&self) -> usize {
-        2 - (self.kind.0 & 1) as usize
+        2 - (self.level_and_side.0 & 1) as usize
     }
 
     /// Returns the ends of the bisection edge, the longest one.
@@ -178,7 +179,7 @@ impl Triangle {
         self.vertices[3 - self.bisection_end()]
     }
 
-    /// Returns the vertex that came into being with this triangle; `None` for a coarse triangle.
+    /// Returns the vertex that the bisection that made this triangle created; `None` for a coarse triangle.
     ///
     /// It is the apex: bisection puts the midpoint opposite the children's bisection edges.
     #[doc(alias = "peak")]

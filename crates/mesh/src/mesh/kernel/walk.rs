@@ -8,8 +8,8 @@ use crate::geometry::{Side, side_of_edge};
 /// How a walk ended.
 #[derive(Clone, Copy)]
 pub(in crate::mesh) enum WalkEnd {
-    /// The walk ended in a triangle that contains the point, with the side of each edge on which the point
-    /// is; it is strictly right of none.
+    /// The walk ended in a triangle that contains the point. For each edge, the side on which the point is:
+    /// never strictly to the right.
     Found(TriangleId, [Side; 3]),
     /// The walk ended at an edge of the boundary, with the point strictly beyond it.
     Blocked,

@@ -1,6 +1,6 @@
 use crate::mesh::kernel::{Mesh, NodeId};
 
-/// Which nodes are joined by an edge to which (Algorithm 13), as compressed rows.
+/// Which nodes are joined by an edge (Algorithm 13), as compressed sparse rows.
 ///
 /// The report reserves 16 places for each node and deletes duplicates afterwards. Here each edge is met once,
 /// by the triangle with the lower index, so that no duplicate arises.

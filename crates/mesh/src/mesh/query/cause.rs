@@ -1,8 +1,8 @@
 //! Finds out why a triangle is in a mesh: because of the rule, or because of compatibility.
 //!
-//! A triangle t came into being when its parent p was bisected, together with the triangle across p's
-//! bisection edge. One of these two exceeds its target, or some triangle farther away does, and
-//! RefineTriangle (Algorithm 2) reached p through a chain of coarser and coarser triangles:
+//! A triangle t was created when its parent p was bisected, together with the triangle across p's bisection
+//! edge. One of these two exceeds its target, or some triangle farther away does, and RefineTriangle
+//! (Algorithm 2) reached p through a chain of coarser and coarser triangles:
 //!
 //! ```text
 //!    t0 ──▶ t1 ──▶ t2 ──▶ p        t0 exceeds its target; across the bisection edge of each lies the next,

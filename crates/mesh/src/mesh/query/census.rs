@@ -3,8 +3,8 @@
 //! The tree is walked level by level, from the coarse grid. Of the triangles that are bisected on a level, at
 //! most [`Census::SAMPLE`] are followed: evenly spaced ones in the order of the tree, which runs through the
 //! domain along a curve without jumps, so the sample is spread over all fine places by their share of
-//! triangles. Each then stands for more triangles than itself. No chance is involved: the same question has
-//! the same answer.
+//! triangles. Each then stands for more triangles than itself. Nothing is random: the same question has the
+//! same answer.
 //!
 //! ```text
 //!        ▲           a coarse triangle
@@ -60,8 +60,8 @@ impl Census {
     /// Looks at triangles until done or until `visits` were looked at.
     ///
     /// `exceeds` is the rule, by corners and level; it must be monotone. `is_in_domain` returns whether a
-    /// triangle, by corners and level, lies in the domain. `mesh` is that of [`Self::new`]; of it only the
-    /// coarse grid counts.
+    /// triangle, by corners and level, lies in the domain. `mesh` is that of [`Self::new`]; only its coarse
+    /// grid is used.
     pub fn advance(
         &mut self,
         mesh: &Mesh,
@@ -124,7 +124,7 @@ impl Census {
 /// Returns the coarse triangles of a mesh, row by row.
 fn coarse_triangles(mesh: &Mesh) -> impl Iterator<Item = TreeTriangle> + '_ {
     // The entry of a coarse triangle is one of its parts.
-    let entry = |number| TreeTriangle::of(mesh, TriangleId::from_index(number));
+    let entry = |number| TreeTriangle::from_mesh(mesh, TriangleId::from_index(number));
     (0..mesh.coarse_triangles()).map(move |number| {
         let mut triangle = entry(number);
         while let Some(parent) = triangle.parent(mesh.lattice()) {

@@ -6,7 +6,7 @@ use std::fmt;
 
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{
-    Answer, DEEPEST_LEVEL, Diameters, Element, Kind, Mesh, NodeId, Orientation, TriangleId,
+    Answer, DEEPEST_LEVEL, Diameters, Element, LevelAndSide, Mesh, NodeId, Orientation, TriangleId,
 };
 
 /// A broken invariant of [`Mesh`], in the order of the list there.
@@ -276,13 +276,13 @@ impl Mesh {
         };
         let nodes = (0..self.nodes.len().max(self.triangle_at.len())).map(NodeId::from_index);
         found.extend(nodes.filter(|n| !has_it(n)).map(Violation::LostNode));
-        let mut counted = [0; Kind::COUNT];
+        let mut counted = [0; LevelAndSide::COUNT];
         for triangle in &self.triangles {
-            counted[triangle.kind().index()] += 1;
+            counted[triangle.level_and_side().index()] += 1;
         }
         for outside in [false, true] {
             for level in 0..=DEEPEST_LEVEL as u32 {
-                let kind = Kind::inside(level).with_outside(outside).index();
+                let kind = LevelAndSide::inside(level).with_outside(outside).index();
                 let (noted, counted) = (self.counts.0[kind] as usize, counted[kind]);
                 if counted != noted {
                     found.push(Violation::Miscounted { level, outside, noted, counted });
@@ -344,7 +344,7 @@ mod tests {
     }
 
     fn with_level(t: Triangle, level: u32) -> Triangle {
-        Triangle::new(t.vertices, t.raw_neighbours, t.orientation(), Kind::inside(level))
+        Triangle::new(t.vertices, t.raw_neighbours, t.orientation(), LevelAndSide::inside(level))
     }
 
     #[test]
@@ -368,7 +368,8 @@ mod tests {
     fn a_wrong_orientation_is_reported() {
         let mut mesh = valid_mesh();
         let t = mesh.triangles[1];
-        mesh.triangles[1] = Triangle::new(t.vertices, t.raw_neighbours, t.orientation().reversed(), t.kind());
+        mesh.triangles[1] =
+            Triangle::new(t.vertices, t.raw_neighbours, t.orientation().reversed(), t.level_and_side());
         assert_reported(&mesh, |v| *v == Violation::WrongOrientation(TriangleId(1)));
     }
 

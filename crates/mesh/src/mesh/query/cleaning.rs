@@ -23,7 +23,7 @@ use std::mem;
 use glam::DVec2;
 
 use super::forest::Forest;
-use super::parts::{Part, Parts, place_key};
+use super::parts::{ExtractPart, Parts, place_key};
 use crate::geometry::NumberMap;
 use crate::mesh::extract::{Extract, MeshPatch};
 use crate::mesh::kernel::{Mesh, NodeId, TriangleId};
@@ -191,7 +191,7 @@ impl<'a> Cleaner<'a> {
     /// part always stays. Returns whether there were any.
     fn remove_parts(&mut self, parts: &Parts, kept: KeptParts, whole: u128) -> bool {
         let Some(largest) = parts.iter().max() else { return false };
-        let stays = |part: &Part| match kept {
+        let stays = |part: &ExtractPart| match kept {
             KeptParts::All => true,
             KeptParts::Largest => part == largest,
             KeptParts::Share(share) => part == largest || part.doubled_area as f64 >= share * whole as f64,
@@ -209,7 +209,7 @@ impl<'a> Cleaner<'a> {
         true
     }
 
-    fn describe(&self, part: &Part) -> RemovedPart {
+    fn describe(&self, part: &ExtractPart) -> RemovedPart {
         let corners = self.extract.cell(part.at).corners.map(NodeId::from_index);
         RemovedPart {
             place: corners.map(|node| self.extract.world(node)).iter().sum::<DVec2>() / 3.0,

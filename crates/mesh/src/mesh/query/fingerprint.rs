@@ -3,8 +3,8 @@ use crate::mesh::kernel::Mesh;
 
 /// A hash of a mesh's set of triangles, independent of their order and numbering.
 ///
-/// Equal meshes have equal fingerprints. Different meshes have different ones unless the hashes collide,
-/// which must be expected to be rare but is not proved; it is no protection against a mesh made to collide.
+/// Equal meshes have equal fingerprints. Different meshes have different ones unless the hashes collide. That
+/// should be rare, but it is not proved, and nothing protects against a mesh that is made to collide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fingerprint(pub u128);
 

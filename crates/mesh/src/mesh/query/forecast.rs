@@ -15,7 +15,9 @@
 //!          o
 //! ```
 
-use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
+use super::forecast_questions::{
+    AskedTriangle, ForecastParentQuestions, LooseVertex, MeshQuestions, TreeQuestions,
+};
 use crate::geometry::{LatticePoint, LatticeRect, NumberMap, NumberSet};
 use crate::mesh::kernel::{
     Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
@@ -24,7 +26,7 @@ use crate::mesh::kernel::{
 
 /// Triangles of a batch, unless a slice is smaller.
 const BATCH: usize = 4096;
-/// The memory for more nodes is not used again: a map is emptied in time that is proportional to its room.
+/// Memory for more nodes than this is not reused: emptying a map takes time proportional to its capacity.
 const MOST_KEPT: usize = 1 << 16;
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
@@ -65,7 +67,7 @@ pub struct Forecast {
     /// none.
     centres: Bitset,
     /// Triangles that may exceed their target: entries of the mesh, or parts of such.
-    open: Vec<Asked>,
+    open: Vec<AskedTriangle>,
     /// Triangles whose newest vertex can perhaps be removed, to be examined when all triangles are satisfied.
     loose: ByLevel,
     /// The nodes that come.
@@ -77,10 +79,10 @@ pub struct Forecast {
     removed: usize,
     change: i64,
     /// Memory that is used again, empty between calls.
-    batch: Vec<Asked>,
+    batch: Vec<AskedTriangle>,
 }
 
-/// A triangle that is not bisected, as far as counted. It stands for all around its newest vertex.
+/// A triangle that is not bisected, as counted so far. It stands for all around its newest vertex.
 #[derive(Clone, Copy, Debug)]
 struct Whole {
     triangle: TreeTriangle,
@@ -130,12 +132,12 @@ impl Forecast {
     /// Creates a forecast without counts. `area` contains all points where the rule has changed.
     pub fn new(area: LatticeRect, limits: &Limits) -> Self {
         let area = ChangedArea { rect: area, change: TargetChange::Any, falloff: None };
-        Self::of_changes(vec![area], limits).expect("there is an area")
+        Self::for_changes(vec![area], limits).expect("there is an area")
     }
 
     /// Creates a forecast without counts for areas that contain all points where the rule has changed, with
     /// what is known of the changes; `None` without an area.
-    pub fn of_changes(areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+    pub fn for_changes(areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
         (!areas.is_empty()).then(|| Self {
             level_cap: limits.level_cap(),
             areas,
@@ -155,9 +157,9 @@ impl Forecast {
         })
     }
 
-    /// [`Self::of_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
-    pub fn of_changes_in(memory: Self, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
-        let new = Self::of_changes(areas, limits)?;
+    /// [`Self::for_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
+    pub fn for_changes_in(memory: Self, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+        let new = Self::for_changes(areas, limits)?;
         if memory.coming.capacity().max(memory.restored.capacity()) > MOST_KEPT {
             return Some(new);
         }
@@ -177,17 +179,18 @@ impl Forecast {
         self
     }
 
-    /// Returns the triangles that would come, as far as counted.
+    /// Returns the number of triangles that would be added, as counted so far.
     pub fn added(&self) -> usize {
         self.added
     }
 
-    /// Returns the triangles that would go, as far as counted. Zero until all that come are counted.
+    /// Returns the number of triangles that would be removed, as counted so far: zero until all added ones
+    /// are counted.
     pub fn removed(&self) -> usize {
         self.removed
     }
 
-    /// Returns how many triangles more there would be in the domain, or fewer below zero, as far as counted.
+    /// Returns by how many triangles the domain would grow, as counted so far; negative if it would shrink.
     pub fn change(&self) -> i64 {
         self.change
     }
@@ -253,7 +256,7 @@ impl Forecast {
             }
         }
         self.search = search;
-        let asked = ask_all(&OfMesh { level_cap: self.level_cap }, &mut found, rule);
+        let asked = ask_all(&MeshQuestions { level_cap: self.level_cap }, &mut found, rule);
         if asked.is_ok() {
             self.open.extend(found.iter().filter(|asked| asked.exceeds()));
         }
@@ -264,10 +267,13 @@ impl Forecast {
 
     /// Notes what a change can have done to a triangle that touches its area.
     #[inline]
-    fn look_at(&mut self, mesh: &Mesh, id: TriangleId, area: &ChangedArea, found: &mut Vec<Asked>) {
+    fn look_at(&mut self, mesh: &Mesh, id: TriangleId, area: &ChangedArea, found: &mut Vec<AskedTriangle>) {
         let [asks, loosens] = area.concerns(mesh, mesh.corners(id), mesh.triangle(id).level());
         if asks && self.asked.insert(id.index()) {
-            found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+            found.push(AskedTriangle {
+                triangle: TreeTriangle::from_mesh(mesh, id),
+                known: LevelsWithin::UNKNOWN,
+            });
         }
         // Where a triangle around it was bisected, the newest vertex is looked at once that one is restored.
         if loosens
@@ -275,7 +281,7 @@ impl Forecast {
             && self.centres.insert(centre.index())
             && mesh.star_of(id).is_some()
         {
-            let triangle = TreeTriangle::of(mesh, id);
+            let triangle = TreeTriangle::from_mesh(mesh, id);
             self.loose.level_mut(triangle.level()).push(Whole { triangle, restored: 0 });
         }
     }
@@ -290,9 +296,9 @@ impl Forecast {
     ) -> Result<usize, RefineError<R::Error>> {
         let mut batch = std::mem::take(&mut self.batch);
         batch.extend(self.open.drain(self.open.len().saturating_sub(most)..));
-        ask_all(&OfTree { level_cap: self.level_cap }, &mut batch, rule).map_err(RefineError::Rule)?;
+        ask_all(&TreeQuestions { level_cap: self.level_cap }, &mut batch, rule).map_err(RefineError::Rule)?;
         for asked in batch.iter().filter(|asked| asked.exceeds()) {
-            let &Asked { triangle, known } = asked;
+            let &AskedTriangle { triangle, known } = asked;
             if triangle.level() >= self.level_cap {
                 continue;
             }
@@ -300,7 +306,7 @@ impl Forecast {
                 return Err(RefineError::too_fine(mesh.lattice(), triangle.apex()));
             }
             self.bisect(mesh, triangle, &gain);
-            let children = triangle.children().map(|triangle| Asked { triangle, known });
+            let children = triangle.children().map(|triangle| AskedTriangle { triangle, known });
             self.open
                 .extend(children.iter().filter(|child| child.known.exceeds(child.level()) != Some(false)));
         }
@@ -341,9 +347,9 @@ impl Forecast {
     ) -> Result<usize, R::Error> {
         let Some(finest) = self.loose.finest_mut() else { return Ok(0) };
         let batch = finest.split_off(finest.len().saturating_sub(most));
-        let mut stars: Vec<Loose> = batch.iter().filter_map(|whole| self.star(mesh, whole)).collect();
-        ask_all(&OfParents { level_cap: self.level_cap }, &mut stars, rule)?;
-        for parent in stars.iter().filter(|loose| !loose.is_needed).flat_map(Loose::parents) {
+        let mut stars: Vec<LooseVertex> = batch.iter().filter_map(|whole| self.star(mesh, whole)).collect();
+        ask_all(&ForecastParentQuestions { level_cap: self.level_cap }, &mut stars, rule)?;
+        for parent in stars.iter().filter(|loose| !loose.is_needed).flat_map(LooseVertex::parents) {
             self.removed += 1;
             self.change -= gain(parent);
             self.restore(*parent);
@@ -362,7 +368,7 @@ impl Forecast {
     }
 
     /// Returns the parents around the newest vertex of a triangle, if no triangle around it is bisected.
-    fn star(&mut self, mesh: &Mesh, whole: &Whole) -> Option<Loose> {
+    fn star(&mut self, mesh: &Mesh, whole: &Whole) -> Option<LooseVertex> {
         let parent = whole.triangle.parent(mesh.lattice())?;
         let parents = [Some(parent), parent.across(mesh)];
         let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
@@ -373,7 +379,7 @@ impl Forecast {
             all if all == count => true,
             some => some + children.filter(|child| self.is_entry(mesh, child)).count() == count,
         };
-        is_whole.then_some(Loose { parents, is_needed: false })
+        is_whole.then_some(LooseVertex { parents, is_needed: false })
     }
 
     /// Returns whether a triangle is an entry of the mesh that no node cuts.

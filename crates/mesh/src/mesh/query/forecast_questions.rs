@@ -4,13 +4,13 @@ use crate::mesh::kernel::{LevelsWithin, Questions, RuleAnswers, TreeTriangle, an
 
 /// A triangle that may exceed its target.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asked {
+pub(super) struct AskedTriangle {
     pub(super) triangle: TreeTriangle,
     /// The known answers for it and for all triangles within it.
     pub(super) known: LevelsWithin,
 }
 
-impl Asked {
+impl AskedTriangle {
     pub(super) fn level(&self) -> u32 {
         self.triangle.level()
     }
@@ -22,28 +22,28 @@ impl Asked {
 }
 
 /// The newest vertex of triangles that coarsening would remove.
-pub(super) struct Loose {
+pub(super) struct LooseVertex {
     pub(super) parents: [Option<TreeTriangle>; 2],
     /// Whether a parent exceeds its target.
     pub(super) is_needed: bool,
 }
 
-impl Loose {
+impl LooseVertex {
     pub(super) fn parents(&self) -> impl Iterator<Item = &TreeTriangle> {
         self.parents.iter().flatten()
     }
 }
 
 /// Asks about triangles of the tree, and about those within them.
-pub(super) struct OfTree {
+pub(super) struct TreeQuestions {
     pub(super) level_cap: u32,
 }
 
-impl Questions for OfTree {
-    type Question = Asked;
+impl Questions for TreeQuestions {
+    type Question = AskedTriangle;
 
     #[inline]
-    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
+    fn ask<A: RuleAnswers>(&self, asked: &mut AskedTriangle, answers: &mut A) -> Result<(), A::Error> {
         let (corners, level) = (asked.triangle.corners(), asked.triangle.level());
         if level < self.level_cap {
             asked.known = asked.known.or_ask(level, || answers.levels_within(corners, level))?;
@@ -53,32 +53,32 @@ impl Questions for OfTree {
 }
 
 /// Asks about entries of the mesh, most of which satisfy their target.
-pub(super) struct OfMesh {
+pub(super) struct MeshQuestions {
     pub(super) level_cap: u32,
 }
 
-impl Questions for OfMesh {
-    type Question = Asked;
+impl Questions for MeshQuestions {
+    type Question = AskedTriangle;
 
     #[inline]
-    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
+    fn ask<A: RuleAnswers>(&self, asked: &mut AskedTriangle, answers: &mut A) -> Result<(), A::Error> {
         let level = asked.triangle.level();
         let exceeds = level < self.level_cap && answers.exceeds(asked.triangle.corners(), level)?;
-        asked.known = LevelsWithin::of_one(level, exceeds);
+        asked.known = LevelsWithin::single(level, exceeds);
         Ok(())
     }
 }
 
 /// Asks whether parents exceed their targets.
-pub(super) struct OfParents {
+pub(super) struct ForecastParentQuestions {
     pub(super) level_cap: u32,
 }
 
-impl Questions for OfParents {
-    type Question = Loose;
+impl Questions for ForecastParentQuestions {
+    type Question = LooseVertex;
 
     #[inline]
-    fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
+    fn ask<A: RuleAnswers>(&self, loose: &mut LooseVertex, answers: &mut A) -> Result<(), A::Error> {
         let parents = loose.parents().map(|parent| (parent.corners(), parent.level()));
         loose.is_needed = any_exceeds(answers, self.level_cap, parents)?;
         Ok(())

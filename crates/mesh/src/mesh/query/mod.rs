@@ -1,5 +1,5 @@
-//! Questions to a finished mesh: location, adjacency, survey, interpolation, fingerprint, checks, forecast,
-//! the bisection tree and the causes of its triangles.
+//! Queries on a finished mesh: location, adjacency, survey, interpolation, fingerprint, checks, forecast, the
+//! bisection tree and the causes of its triangles.
 
 mod adjacency;
 mod cause;

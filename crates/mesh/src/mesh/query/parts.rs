@@ -1,4 +1,4 @@
-//! The parts of an extract: triangles that edges join.
+//! The parts of an extract: the connected components of its triangles, joined by edges.
 
 use std::cmp::Reverse;
 
@@ -9,7 +9,7 @@ use crate::mesh::kernel::{NodeId, TriangleId};
 
 /// A part. Parts compare by their area, then by place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Part {
+pub(super) struct ExtractPart {
     /// Twice the area, in squares of the lattice.
     pub doubled_area: u128,
     lowest: Reverse<[u64; 2]>,
@@ -22,7 +22,7 @@ pub(super) struct Part {
 pub(super) struct Parts {
     /// For each triangle, the index of its part in `parts`; without meaning for a triangle that is left out.
     numbers: Vec<u32>,
-    parts: Vec<Part>,
+    parts: Vec<ExtractPart>,
 }
 
 impl Parts {
@@ -43,7 +43,7 @@ impl Parts {
             let lowest = Reverse(place_key(extract, at));
             if numbers[root] == UNKNOWN {
                 numbers[root] = parts.len() as u32;
-                parts.push(Part { doubled_area: 0, lowest, triangles: 0, at });
+                parts.push(ExtractPart { doubled_area: 0, lowest, triangles: 0, at });
             }
             numbers[index] = numbers[root];
             let part = &mut parts[numbers[root] as usize];
@@ -57,12 +57,12 @@ impl Parts {
     }
 
     /// Returns the part of a triangle that is not left out.
-    pub fn of(&self, id: TriangleId) -> &Part {
+    pub fn of(&self, id: TriangleId) -> &ExtractPart {
         &self.parts[self.numbers[id.index()] as usize]
     }
 
     /// Returns all parts, in no order.
-    pub fn iter(&self) -> impl Iterator<Item = &Part> {
+    pub fn iter(&self) -> impl Iterator<Item = &ExtractPart> {
         self.parts.iter()
     }
 }

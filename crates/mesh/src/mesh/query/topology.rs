@@ -4,11 +4,13 @@ use super::forest::Forest;
 use crate::mesh::extract::Extract;
 
 /// The shape of a mesh's domain, as the triangles show it.
+#[doc(alias = "connected components")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Topology {
     /// Nodes that some triangle of the domain has.
     pub nodes: usize,
-    /// Parts that are joined by edges. Where only a corner joins two, they are two.
+    /// Connected components: parts whose triangles are joined by edges. Two that only touch in a corner count
+    /// as two.
     pub parts: usize,
     /// Holes: places outside that the mesh closes in.
     pub holes: usize,

@@ -22,7 +22,7 @@ impl Mesh {
         let [apex, p, q] = triangle.corners().map(LatticePoint::as_dvec2);
         let (_, start) = triangle.coarse_entry(self)?;
         match self.walk(start, 0.5 * apex + 0.25 * (p + q)) {
-            WalkEnd::Found(id, _) => TreeTriangle::of(self, id).is_same(triangle).then_some(id),
+            WalkEnd::Found(id, _) => TreeTriangle::from_mesh(self, id).is_same(triangle).then_some(id),
             WalkEnd::Blocked => None,
         }
     }

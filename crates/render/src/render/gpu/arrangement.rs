@@ -12,9 +12,9 @@
 //!            └──── drawn ──┘                 at detail level 10
 //! ```
 //!
-//! The picture does not depend on which blocks are arranged. The triangles of the others are all looked at,
-//! and the shader decides which of them represent others. So a block that an edit has changed is just not
-//! arranged any more, and is arranged again when there is time.
+//! The picture does not depend on which blocks are arranged. In the others, the shader looks at all triangles
+//! and decides which of them represent an ancestor. So a block that an edit has changed simply stops being
+//! arranged, until there is time to arrange it again.
 
 use std::ops::Range;
 

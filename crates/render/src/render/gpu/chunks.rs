@@ -23,7 +23,7 @@ pub struct ChunkLimits {
 
 impl ChunkLimits {
     /// Returns the largest buffers that a device with these limits can bind, up to 256 MiB.
-    pub fn of_device(limits: &wgpu::Limits) -> Self {
+    pub fn from_device(limits: &wgpu::Limits) -> Self {
         let bytes =
             limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(LARGEST_CHUNK_BYTES)
                 as usize;

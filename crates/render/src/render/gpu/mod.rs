@@ -55,7 +55,7 @@ impl GpuRenderer {
         queue: &wgpu::Queue,
         target_format: wgpu::TextureFormat,
     ) -> Result<Self, GpuError> {
-        Self::with_chunks(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
+        Self::with_chunks(device, queue, target_format, ChunkLimits::from_device(&device.limits()))
     }
 
     /// Creates a renderer with buffers of the given size, for canvases of `target_format` (see
@@ -82,7 +82,7 @@ impl GpuRenderer {
         queue: &wgpu::Queue,
         target_format: wgpu::TextureFormat,
     ) -> Self {
-        Self::of_any(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
+        Self::of_any(device, queue, target_format, ChunkLimits::from_device(&device.limits()))
     }
 
     fn of_any(

@@ -19,7 +19,7 @@ pub(super) struct MeshPicture {
     space_pass: Option<SpacePass>,
     format: wgpu::TextureFormat,
     texture: ShownImage,
-    drawn: Option<Drawn>,
+    drawn: Option<PictureContents>,
     /// The picture that is drawn in software.
     kept: KeptPicture,
     /// The picture in space that was drawn in software.
@@ -31,7 +31,7 @@ pub(super) struct MeshPicture {
 
 /// The contents of the picture. When any of it changes, the picture is redrawn.
 #[derive(PartialEq)]
-struct Drawn {
+struct PictureContents {
     source: Source,
     sight: Sight,
     style: Style,
@@ -55,7 +55,7 @@ enum Source {
     Image(ShownRevision),
 }
 
-impl Drawn {
+impl PictureContents {
     fn is_image_of_plan(&self) -> bool {
         matches!((&self.source, self.sight), (Source::Image(_), Sight::Plan(_)))
     }
@@ -140,7 +140,7 @@ impl MeshPicture {
         let Some(wanted) = self.if_not_drawn(Source::Image(revision), Sight::Plan(*camera), style) else {
             return;
         };
-        if !self.drawn.as_ref().is_some_and(Drawn::is_image_of_plan) {
+        if !self.drawn.as_ref().is_some_and(PictureContents::is_image_of_plan) {
             self.taken_from = Some(PxRect::whole(camera.size_px()));
         }
         if let Some(part) = self.kept.update(shown, revision, camera, style) {
@@ -160,7 +160,7 @@ impl MeshPicture {
         style: &Style,
     ) -> Result<(), GpuError> {
         let Some(space_pass) = &mut self.space_pass else { return Ok(()) };
-        let wanted = Drawn {
+        let wanted = PictureContents {
             source: Source::Mirror(mirror.generation()),
             sight: Sight::Space(*view),
             style: style.clone(),
@@ -232,12 +232,12 @@ impl MeshPicture {
     }
 
     /// Returns the contents to draw, or `None` if the picture already shows them.
-    fn if_not_drawn(&self, source: Source, sight: Sight, style: &Style) -> Option<Drawn> {
-        let wanted = Drawn { source, sight, style: style.clone() };
+    fn if_not_drawn(&self, source: Source, sight: Sight, style: &Style) -> Option<PictureContents> {
+        let wanted = PictureContents { source, sight, style: style.clone() };
         (self.drawn.as_ref() != Some(&wanted)).then_some(wanted)
     }
 
-    fn keep(&mut self, drawn: Drawn) {
+    fn keep(&mut self, drawn: PictureContents) {
         self.drawn = Some(drawn);
         self.redraws += 1;
     }

@@ -1,7 +1,7 @@
 //! The pipelines that draw the arrays of a mirror in space.
 //!
-//! They read the buffers of the plan, and one more with the heights of the nodes. That the plan has pipelines
-//! of its own keeps it as fast as it was: it needs neither heights nor a buffer of depths.
+//! They read the buffers of the plan, and one more with the heights of the nodes. The plan keeps pipelines of
+//! its own for speed: it needs neither heights nor a depth buffer.
 
 use super::chunks::new_buffer;
 use super::device::STORAGE_BUFFERS;

@@ -19,7 +19,7 @@ pub(super) struct Corners {
 }
 
 impl Corners {
-    pub(super) fn of(nodes: &[LatticePoint], camera: &Camera) -> Self {
+    pub(super) fn new(nodes: &[LatticePoint], camera: &Camera) -> Self {
         let mut corners = Self::default();
         corners.map(nodes, camera);
         corners

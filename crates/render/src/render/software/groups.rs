@@ -24,7 +24,7 @@ pub(super) struct TriangleGroups {
 }
 
 impl TriangleGroups {
-    pub(super) fn of(nodes: &[LatticePoint], triangles: &[Triangle]) -> Self {
+    pub(super) fn new(nodes: &[LatticePoint], triangles: &[Triangle]) -> Self {
         let groups = triangles.par_chunks(GROUP).with_min_len(GROUPS_PER_TASK);
         Self { rects: groups.map(|group| rect_around(nodes, group)).collect() }
     }

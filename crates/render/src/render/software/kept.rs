@@ -1,4 +1,4 @@
-//! The picture of a mesh that is edited. After an edit, only the part where the mesh changed is drawn again.
+//! The picture of a mesh that is edited. After an edit, only the part where the mesh changed is redrawn.
 
 use super::corners::Corners;
 use super::damage::{Damage, PxRect};
@@ -19,7 +19,7 @@ use meshbrush_mesh::mesh::{Changes, Mesh};
 #[derive(Debug)]
 pub struct KeptPicture {
     image: Image,
-    drawn: Option<Drawn>,
+    drawn: Option<DrawnContents>,
     since: Since,
     groups: TriangleGroups,
     corners: Corners,
@@ -27,7 +27,7 @@ pub struct KeptPicture {
 
 /// The contents of the picture.
 #[derive(Debug)]
-struct Drawn {
+struct DrawnContents {
     revision: ShownRevision,
     camera: Camera,
     style: Style,
@@ -98,7 +98,7 @@ impl KeptPicture {
         let since = self.checked(since, revision);
         self.follow(&since, mesh, camera);
         let damage = self.damage(&since, mesh, revision, camera, style);
-        self.drawn = Some(Drawn { revision, camera: *camera, style: style.clone() });
+        self.drawn = Some(DrawnContents { revision, camera: *camera, style: style.clone() });
         if self.image.size != camera.size_px() {
             self.image = Image::filled(camera.size_px(), ground(style));
         }
@@ -115,7 +115,7 @@ impl KeptPicture {
         match since {
             Since::Unchanged => {}
             Since::Within(changes) => self.groups.follow(nodes, triangles, &changes.triangles),
-            Since::Replaced => self.groups = TriangleGroups::of(nodes, triangles),
+            Since::Replaced => self.groups = TriangleGroups::new(nodes, triangles),
         }
         match since {
             Since::Unchanged if same_camera => {}
@@ -181,10 +181,10 @@ impl KeptPicture {
         let ShownMesh { mesh, pieces } = shown;
         let camera = camera.on_lattice(mesh.lattice());
         let none = DrawFlags::default();
-        let flags = pieces.map(|pieces| DrawFlags::of_pieces(pieces, mesh.raw_triangle_count()));
+        let flags = pieces.map(|pieces| DrawFlags::from_pieces(pieces, mesh.raw_triangle_count()));
         let of_pieces = pieces.map(|pieces| {
             let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
-            (nodes, triangles, TriangleGroups::of(nodes, triangles), Corners::of(nodes, &camera))
+            (nodes, triangles, TriangleGroups::new(nodes, triangles), Corners::new(nodes, &camera))
         });
         let mut arrays = vec![TriangleArrays {
             nodes: mesh.raw_nodes(),

@@ -51,8 +51,8 @@ pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image 
     let mut image = Image::filled(camera.size_px(), ground(style));
     let camera = camera.on_lattice(extract.lattice());
     let (nodes, triangles) = (extract.nodes(), extract.triangles());
-    let (groups, flags) = (TriangleGroups::of(nodes, triangles), DrawFlags::default());
-    let corners = Corners::of(nodes, &camera);
+    let (groups, flags) = (TriangleGroups::new(nodes, triangles), DrawFlags::default());
+    let corners = Corners::new(nodes, &camera);
     let arrays = TriangleArrays {
         nodes,
         corners: &corners,

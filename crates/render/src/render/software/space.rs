@@ -32,7 +32,7 @@ pub fn draw_extract_in_space(
 ) -> Image {
     let none = DrawFlags::default();
     let (nodes, triangles) = (extract.nodes(), extract.triangles());
-    draw_parts(&[Part { nodes, triangles, heights: &heights.mesh, flags: &none }], view, style)
+    draw_parts(&[SurfacePart { nodes, triangles, heights: &heights.mesh, flags: &none }], view, style)
 }
 
 /// Draws a mesh in space with its pieces. All triangles of which each corner has a height are drawn.
@@ -41,19 +41,23 @@ pub fn draw_extract_in_space(
 pub fn draw_surface(shown: ShownSurface, view: &SpaceView, style: &Style) -> Image {
     let ShownSurface { mesh, pieces, heights } = shown;
     let none = DrawFlags::default();
-    let flags = pieces.map(|pieces| DrawFlags::of_pieces(pieces, mesh.raw_triangle_count()));
+    let flags = pieces.map(|pieces| DrawFlags::from_pieces(pieces, mesh.raw_triangle_count()));
     let (nodes, triangles) = (mesh.raw_nodes(), mesh.raw_triangles());
-    let mut parts =
-        vec![Part { nodes, triangles, heights: &heights.mesh, flags: flags.as_ref().unwrap_or(&none) }];
+    let mut parts = vec![SurfacePart {
+        nodes,
+        triangles,
+        heights: &heights.mesh,
+        flags: flags.as_ref().unwrap_or(&none),
+    }];
     if let Some(pieces) = pieces {
         let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
-        parts.push(Part { nodes, triangles, heights: &heights.pieces, flags: &none });
+        parts.push(SurfacePart { nodes, triangles, heights: &heights.pieces, flags: &none });
     }
     draw_parts(&parts, view, style)
 }
 
 /// Triangles with the heights of their nodes.
-struct Part<'a> {
+struct SurfacePart<'a> {
     nodes: &'a [LatticePoint],
     triangles: &'a [Triangle],
     heights: &'a [u32],
@@ -62,14 +66,14 @@ struct Part<'a> {
 
 /// A part as one camera sees it.
 struct Placed<'a> {
-    part: &'a Part<'a>,
+    part: &'a SurfacePart<'a>,
     /// For each node its place in pixels and towards the viewer; NaN without a height.
     corners: Vec<DVec3>,
     /// For each group its rows, from the first to behind the last.
     rows: Vec<Range<i32>>,
 }
 
-fn draw_parts(parts: &[Part], view: &SpaceView, style: &Style) -> Image {
+fn draw_parts(parts: &[SurfacePart], view: &SpaceView, style: &Style) -> Image {
     let size = view.camera.size_px();
     let mut image = Image::filled(size, ground(style));
     on_drawing_threads(|| {
@@ -89,7 +93,7 @@ fn draw_parts(parts: &[Part], view: &SpaceView, style: &Style) -> Image {
 }
 
 impl<'a> Placed<'a> {
-    fn new(part: &'a Part<'a>, camera: &SpaceCamera) -> Self {
+    fn new(part: &'a SurfacePart<'a>, camera: &SpaceCamera) -> Self {
         let screen = camera.screen_map();
         let heights = part.heights.par_iter().chain(rayon::iter::repeat_n(&NO_HEIGHT, part.nodes.len()));
         let heights = heights.take(part.nodes.len());
@@ -107,7 +111,7 @@ impl<'a> Placed<'a> {
     }
 
     fn draw(&self, band: &mut Band, shader: &SpaceShader) {
-        let Part { triangles, flags, .. } = *self.part;
+        let SurfacePart { triangles, flags, .. } = *self.part;
         for (group, rows) in self.rows.iter().enumerate() {
             if rows.start >= band.rows.end || rows.end <= band.rows.start {
                 continue;
@@ -141,7 +145,7 @@ fn rows_of(group: &[Triangle], corners: &[DVec3]) -> Range<i32> {
 struct DrawnTriangle<'a> {
     triangle: &'a Triangle,
     corners: [DVec3; 3],
-    part: &'a Part<'a>,
+    part: &'a SurfacePart<'a>,
 }
 
 impl DrawnTriangle<'_> {

@@ -68,14 +68,14 @@ impl KnotRow<'_> {
     fn numbers(&mut self, ui: &mut Ui, room: Rect, name: &str) -> bool {
         let (left, right) = room.split_left_right_at_fraction(0.5);
         let unit = self.unit.symbol();
-        let value = Part {
+        let value = KnotNumber {
             name: format!("{name} value"),
             help: "A value of the raster, in the unit that the raster has.",
             rect: left.with_max_x(left.right() - GAP / 2.0),
             range: self.values.clone(),
             unit: "",
         };
-        let diameter = Part {
+        let diameter = KnotNumber {
             name: format!("{name} diameter"),
             help: "Target diameter where the raster has this value; between two knots it changes linearly.",
             rect: right.with_min_x(right.left() + GAP / 2.0),
@@ -93,7 +93,7 @@ impl KnotRow<'_> {
 }
 
 /// One of the two numbers.
-struct Part<'a> {
+struct KnotNumber<'a> {
     name: String,
     help: &'a str,
     rect: Rect,
@@ -101,7 +101,7 @@ struct Part<'a> {
     unit: &'a str,
 }
 
-impl Part<'_> {
+impl KnotNumber<'_> {
     fn id(&self, ui: &Ui) -> Id {
         ui.make_persistent_id(&self.name)
     }

@@ -60,7 +60,7 @@ pub enum Hint<'a> {
 /// not fit into `bounds` are left out from the end.
 pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hint<'_>]) -> Response {
     let hints = with_keys(ui, hints);
-    let hints: Vec<Hint<'_>> = hints.iter().map(Piece::as_hint).collect();
+    let hints: Vec<Hint<'_>> = hints.iter().map(HintPiece::as_hint).collect();
     let shown = fitting(ui, &hints, bounds.width() - 24.0);
     let size = vec2(width(ui, shown) + 24.0, 32.0).ceil();
     let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
@@ -84,12 +84,12 @@ pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hi
 }
 
 /// A part of a hint with the key that works now.
-enum Piece<'a> {
+enum HintPiece<'a> {
     Text(&'a str),
     Key(String),
 }
 
-impl Piece<'_> {
+impl HintPiece<'_> {
     fn as_hint(&self) -> Hint<'_> {
         match self {
             Self::Text(text) => Hint::Text(text),
@@ -99,19 +99,21 @@ impl Piece<'_> {
 }
 
 /// Returns the hints with the keys of entries. Words about entries none of which has a key are left out.
-fn with_keys<'a>(ui: &Ui, hints: &[Hint<'a>]) -> Vec<Piece<'a>> {
+fn with_keys<'a>(ui: &Ui, hints: &[Hint<'a>]) -> Vec<HintPiece<'a>> {
     let mut pieces = Vec::new();
     let mut lacks_key = false;
     for hint in hints {
         match *hint {
-            Hint::Text(_) if lacks_key && !matches!(pieces.last(), Some(Piece::Key(_))) => lacks_key = false,
+            Hint::Text(_) if lacks_key && !matches!(pieces.last(), Some(HintPiece::Key(_))) => {
+                lacks_key = false
+            }
             Hint::Text(text) => {
-                pieces.push(Piece::Text(text));
+                pieces.push(HintPiece::Text(text));
                 lacks_key = false;
             }
-            Hint::Key(key) => pieces.push(Piece::Key(key.to_owned())),
+            Hint::Key(key) => pieces.push(HintPiece::Key(key.to_owned())),
             Hint::KeyOf(entry) => match key_of(ui.ctx(), entry) {
-                Some(key) => pieces.push(Piece::Key(key)),
+                Some(key) => pieces.push(HintPiece::Key(key)),
                 None => lacks_key = true,
             },
         }

@@ -77,7 +77,7 @@ impl Palette {
     fn contents(&mut self, ui: &mut Ui, items: &[PaletteItem<'_>]) -> Option<usize> {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
         ui.spacing_mut().item_spacing.y = 0.0;
-        let keys = Keys::take(ui);
+        let keys = PaletteKeys::take(ui);
         self.query_ui(ui);
         let found = ranked(&self.query, items);
         self.step(keys, found.len());
@@ -95,7 +95,7 @@ impl Palette {
     }
 
     /// Moves the selection; it wraps at both ends.
-    fn step(&mut self, keys: Keys, count: usize) {
+    fn step(&mut self, keys: PaletteKeys, count: usize) {
         if count == 0 {
             self.selected = 0;
             return;
@@ -151,13 +151,13 @@ impl Palette {
 
 /// The keys that move in the list, taken from the text field.
 #[derive(Clone, Copy)]
-struct Keys {
+struct PaletteKeys {
     up: usize,
     down: usize,
     enter: bool,
 }
 
-impl Keys {
+impl PaletteKeys {
     fn take(ui: &Ui) -> Self {
         ui.input_mut(|input| Self {
             up: input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp),

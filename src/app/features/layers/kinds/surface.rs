@@ -48,12 +48,12 @@ const NORMS: [(SurfaceNorm, &str); 3] = [
 
 /// What is given, and what follows from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Given {
+enum GivenGoal {
     Error,
     Triangles,
 }
 
-impl Given {
+impl GivenGoal {
     const CHOICES: [(Self, &str); 2] = [(Self::Error, "Error"), (Self::Triangles, "Triangles")];
 
     fn of(goal: SurfaceGoal) -> Self {
@@ -126,8 +126,8 @@ fn goal_rows(
     commands: &mut Vec<Command>,
 ) {
     let with = |goal| LayerKind::Surface(Surface { goal, ..surface.clone() });
-    let mut given = Given::of(surface.goal);
-    if segmented(ui, "What is given", &mut given, &Given::CHOICES).changed() {
+    let mut given = GivenGoal::of(surface.goal);
+    if segmented(ui, "What is given", &mut given, &GivenGoal::CHOICES).changed() {
         return set_kind_once(layer, with(other_goal(state, layer, given)), commands);
     }
     let (response, goal) = match surface.goal {
@@ -152,11 +152,11 @@ fn goal_rows(
 }
 
 /// Returns the goal of the other sort that the mesh as it is meets.
-fn other_goal(state: &FrameState<'_>, layer: &Layer, given: Given) -> SurfaceGoal {
+fn other_goal(state: &FrameState<'_>, layer: &Layer, given: GivenGoal) -> SurfaceGoal {
     let follower = state.session.follower();
     match given {
-        Given::Triangles => SurfaceGoal::AtMost(follower.mesh().triangles().count().max(1)),
-        Given::Error => {
+        GivenGoal::Triangles => SurfaceGoal::AtMost(follower.mesh().triangles().count().max(1)),
+        GivenGoal::Error => {
             let mut errors = follower.surface().into_iter().flat_map(|rule| rule.errors());
             let error = errors.find(|(id, _)| *id == layer.id).map(|(_, error)| error);
             let error = error.filter(|error| *error > 0.0 && error.is_finite());

@@ -55,11 +55,11 @@ fn add_edits(journal: &mut Journal, document: &mut Document, time: u64) {
     journal.add(edits.settings.then(|| document.settings().clone()), document.paint(), time).unwrap();
 }
 
-fn parsed(path: &Path) -> Kept {
-    Kept::parse(&fs::read(path).unwrap()).unwrap()
+fn parsed(path: &Path) -> KeptJournal {
+    KeptJournal::parse(&fs::read(path).unwrap()).unwrap()
 }
 
-fn assert_kept(kept: &Kept, expected: &Project) {
+fn assert_kept(kept: &KeptJournal, expected: &Project) {
     assert_eq!(kept.project.settings, expected.settings, "at {}", kept.time);
     let painted = expected.settings.layers.iter().filter(|layer| layer.paints().is_some());
     let paint = expected.paint.of_layers(painted.map(|layer| layer.id));
@@ -200,7 +200,7 @@ fn kill_at_random_moments(seed: u64) -> u64 {
         // Killed now, or while the last record was written.
         let bytes = fs::read(&counted.journal.path).unwrap();
         let lost = if random.bool() { 0 } else { random.usize(..=grown as usize) };
-        let kept = Kept::parse(&bytes[..bytes.len() - lost]).unwrap();
+        let kept = KeptJournal::parse(&bytes[..bytes.len() - lost]).unwrap();
         assert_eq!(kept.time as usize, states.len() - 1 - usize::from(lost > 0), "seed {seed}");
         assert_kept(&kept, &states[kept.time as usize]);
     }
@@ -208,7 +208,7 @@ fn kill_at_random_moments(seed: u64) -> u64 {
     // But for the last whole document; a file begins with 8 bytes.
     assert!(written <= 3 * changed + 8 * (1 + renewals), "{written} bytes for {changed}, seed {seed}");
     let bytes = fs::read(&journal.path).unwrap();
-    for kept in (0..10).filter_map(|_| Kept::parse(&bytes[..random.usize(..bytes.len())]).ok()) {
+    for kept in (0..10).filter_map(|_| KeptJournal::parse(&bytes[..random.usize(..bytes.len())]).ok()) {
         assert_kept(&kept, &states[kept.time as usize]);
     }
     fs::remove_dir_all(folder).unwrap();

@@ -6,14 +6,14 @@
 //!   write     number the triangles and nodes of all blocks, copy them from templates     all threads
 //! ```
 //!
-//! Away from the lines where the level changes, a mesh is uniform: nearly all triangles come in blocks of
-//! hundreds, and a block needs no bisections one by one. A *template* has its triangles in the order in which
+//! Away from the lines where the level changes, a mesh is uniform: nearly all triangles belong to blocks of
+//! hundreds, which need not be bisected one by one. A *template* has its triangles in the order in which
 //! bisection makes them, so that they have the vertices, orientations and neighbours that Algorithm 12 gives
 //! them.
 //!
 //! The skeleton is made in the arrays of the mesh itself, and the blocks are written around it: an entry of
-//! the skeleton is read until the block of that entry is written. What the neighbours of a block must know of
-//! it is kept in two bytes. So nothing is there twice.
+//! the skeleton is read until the block of that entry is written. What the neighbours of a block must know
+//! about it is kept in two bytes, so that nothing is stored twice.
 //!
 //! Every bisection is necessary: those of the survey, because a triangle exceeds its target; those of the
 //! skeleton besides, because the triangle across an edge has a node there. So the mesh is the smallest
@@ -42,13 +42,13 @@ use write::Writer;
 #[derive(Clone, Debug)]
 pub struct BlockRefiner {
     limits: Limits,
-    stage: Stage,
+    stage: BlockStage,
     triangles: usize,
     capped: usize,
 }
 
 #[derive(Clone, Debug)]
-enum Stage {
+enum BlockStage {
     Survey(Survey),
     Skeleton(Box<Skeleton>),
     Write(Box<Writer>),
@@ -58,7 +58,7 @@ enum Stage {
 impl BlockRefiner {
     /// Creates the work that visits every triangle of `mesh` and all their descendants.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
-        Self { limits, stage: Stage::Survey(Survey::new(mesh)), triangles: 0, capped: 0 }
+        Self { limits, stage: BlockStage::Survey(Survey::new(mesh)), triangles: 0, capped: 0 }
     }
 
     /// Refines until done or until about `visits` triangles were asked about or written; a little on each
@@ -72,40 +72,40 @@ impl BlockRefiner {
         rule: &R,
         visits: usize,
     ) -> Result<Progress, RefineError<R::Error>> {
-        self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
-            Stage::Survey(mut survey) => {
+        self.stage = match std::mem::replace(&mut self.stage, BlockStage::Done) {
+            BlockStage::Survey(mut survey) => {
                 let progress = survey.advance(mesh, &self.limits, rule, visits)?;
                 (self.triangles, self.capped) = (survey.triangles(), survey.capped());
                 match progress {
-                    Progress::More => Stage::Survey(survey),
-                    Progress::Done => Stage::Skeleton(Box::new(Skeleton::new(mesh, survey.finish()))),
+                    Progress::More => BlockStage::Survey(survey),
+                    Progress::Done => BlockStage::Skeleton(Box::new(Skeleton::new(mesh, survey.finish()))),
                 }
             }
-            Stage::Skeleton(mut skeleton) => {
+            BlockStage::Skeleton(mut skeleton) => {
                 match skeleton.advance(mesh, &self.limits, visits).map_err(LimitError::with_rule)? {
-                    Progress::More => Stage::Skeleton(skeleton),
+                    Progress::More => BlockStage::Skeleton(skeleton),
                     Progress::Done => {
                         self.begin_writing(mesh, skeleton.finish()).map_err(LimitError::with_rule)?
                     }
                 }
             }
-            Stage::Write(mut writer) => {
+            BlockStage::Write(mut writer) => {
                 match writer.advance(mesh, &self.limits, visits).map_err(LimitError::with_rule)? {
-                    Progress::More => Stage::Write(writer),
-                    Progress::Done => Stage::Done,
+                    Progress::More => BlockStage::Write(writer),
+                    Progress::Done => BlockStage::Done,
                 }
             }
-            Stage::Done => Stage::Done,
+            BlockStage::Done => BlockStage::Done,
         };
-        Ok(if matches!(self.stage, Stage::Done) { Progress::Done } else { Progress::More })
+        Ok(if matches!(self.stage, BlockStage::Done) { Progress::Done } else { Progress::More })
     }
 
-    fn begin_writing(&mut self, skeleton: &Mesh, depths: Vec<u8>) -> Result<Stage, LimitError> {
+    fn begin_writing(&mut self, skeleton: &Mesh, depths: Vec<u8>) -> Result<BlockStage, LimitError> {
         self.triangles = depths.iter().map(|&depth| 1 << depth).sum();
         if self.triangles > self.limits.most_triangles() {
             return Err(self.limits.passed());
         }
-        Ok(Stage::Write(Box::new(Writer::new(skeleton, depths))))
+        Ok(BlockStage::Write(Box::new(Writer::new(skeleton, depths))))
     }
 
     /// Returns how many triangles the mesh will have, as far as that is known.

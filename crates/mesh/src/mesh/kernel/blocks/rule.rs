@@ -3,8 +3,8 @@
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::Answer;
 
-/// A refinement rule that several threads can ask. It must be monotone: what satisfies it, all triangles
-/// within satisfy too.
+/// A refinement rule that several threads can ask. It must be monotone: all triangles within a triangle that
+/// satisfies it satisfy it too.
 pub trait SharedRule: Sync {
     /// Why the rule cannot answer; [`Infallible`](std::convert::Infallible) where it always can.
     type Error: Send;
@@ -13,7 +13,7 @@ pub trait SharedRule: Sync {
     fn answers(&self) -> impl RuleAnswers<Error = Self::Error>;
 
     /// Returns how many questions are worth another thread: they should take longer than the tenth of a
-    /// millisecond in which it wakes and works.
+    /// millisecond that it needs to wake up.
     fn questions_per_thread(&self) -> usize {
         1024
     }
@@ -62,7 +62,7 @@ where
 
     #[inline]
     fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, A::Error> {
-        Ok(LevelsWithin::of_one(level, self(corners, level).into_result()?))
+        Ok(LevelsWithin::single(level, self(corners, level).into_result()?))
     }
 }
 
@@ -86,7 +86,7 @@ impl LevelsWithin {
 
     /// Returns the answers that follow from the answer for the triangle itself.
     #[inline]
-    pub fn of_one(level: u32, exceeds: bool) -> Self {
+    pub fn single(level: u32, exceeds: bool) -> Self {
         if exceeds {
             Self { exceed_below: level + 1, ..Self::UNKNOWN }
         } else {
@@ -99,7 +99,7 @@ impl LevelsWithin {
     pub fn decided_at(self, level: u32, exceeds: impl FnOnce() -> bool) -> Self {
         match self.exceeds(level) {
             Some(_) => self,
-            None => self.and(Self::of_one(level, exceeds())),
+            None => self.and(Self::single(level, exceeds())),
         }
     }
 

@@ -18,7 +18,7 @@ pub(super) struct Shape(u16);
 
 impl Shape {
     /// Returns the shape of a triangle of the skeleton that is refined by `depth` levels.
-    pub fn of(skeleton: &Mesh, block: TriangleId, depth: u32) -> Self {
+    pub fn new(skeleton: &Mesh, block: TriangleId, depth: u32) -> Self {
         let triangle = skeleton.triangle(block);
         let mut bits = depth | (Template::form(triangle) as u32) << FORM;
         for (edge, across) in (0..).zip(triangle.raw_neighbours) {

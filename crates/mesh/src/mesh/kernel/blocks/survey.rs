@@ -8,8 +8,8 @@
 //!          satisfied     satisfied
 //! ```
 //!
-//! Tasks go down the tree depth first. Each asks a limited number of questions; what it leaves open are the
-//! tasks of the next round. So tasks are small, and few levels of the tree are enough to keep all threads
+//! Tasks go down the tree depth first. Each asks a limited number of questions; what it leaves open becomes
+//! the tasks of the next round. So tasks are small, and few levels of the tree are enough to keep all threads
 //! busy.
 
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ use crate::mesh::kernel::{Limits, Mesh, Progress, RefineError, TriangleId};
 
 /// The most triangles whose children a task asks about.
 const TASK_VISITS: usize = 2048;
-/// About so many tasks a round is divided into, where it has enough subtrees.
+/// About the number of tasks into which a round is divided, where it has enough subtrees.
 const TASKS: usize = 64;
 /// The most subtrees of a task.
 const MOST_SUBTREES: usize = 64;
@@ -168,9 +168,9 @@ impl Survey {
         self.next == 0 && self.triangles == 0 && self.slots.len() == self.round.len()
     }
 
-    /// Takes what the task has found whose first subtree is this one of the round.
-    fn take(&mut self, found: Found, first: usize) {
-        let Found { slots, open, subtrees, triangles, capped, .. } = found;
+    /// Takes the result of the task whose first subtree is this one of the round.
+    fn take(&mut self, found: SurveyPart, first: usize) {
+        let SurveyPart { slots, open, subtrees, triangles, capped, .. } = found;
         self.triangles += triangles;
         self.capped += capped;
         let behind = self.slots.len() - subtrees;
@@ -192,7 +192,7 @@ impl Survey {
         }));
     }
 
-    /// Returns how many triangles of the tree need not be bisected, as far as was asked.
+    /// Returns how many triangles of the tree need not be bisected, as far as known.
     pub fn triangles(&self) -> usize {
         self.triangles
     }
@@ -231,12 +231,12 @@ struct Task<A> {
     deepest: u32,
     /// How many triangles may still be visited.
     visits: usize,
-    found: Found,
+    found: SurveyPart,
 }
 
 /// The result of a task. Slots are numbered within the task: its subtrees have the first ones.
 #[derive(Default)]
-struct Found {
+struct SurveyPart {
     subtrees: usize,
     slots: Slots,
     open: Vec<Subtree>,
@@ -249,10 +249,10 @@ struct Found {
 impl<A: RuleAnswers> Task<A> {
     fn new(mesh: &Mesh, limits: &Limits, answers: A, visits: usize) -> Self {
         let (cap, deepest) = (limits.level_cap(), mesh.lattice().deepest_level());
-        Self { answers, cap, deepest, visits, found: Found::default() }
+        Self { answers, cap, deepest, visits, found: SurveyPart::default() }
     }
 
-    fn survey(mut self, subtrees: &[Subtree]) -> Result<Found, A::Error> {
+    fn survey(mut self, subtrees: &[Subtree]) -> Result<SurveyPart, A::Error> {
         self.found.subtrees = subtrees.len();
         self.found.slots = vec![Slot::OPEN; subtrees.len()];
         for (slot, &subtree) in subtrees.iter().enumerate() {

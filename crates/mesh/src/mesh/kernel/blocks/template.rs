@@ -5,13 +5,13 @@ use std::sync::LazyLock;
 
 use crate::geometry::{Lattice, LatticePoint, Rect};
 use crate::mesh::kernel::{
-    CoarseIndex, Kind, KindCounts, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId,
+    CoarseIndex, LevelAndSide, LevelAndSideCounts, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId,
 };
 
 /// The most levels by which a block is refined: 256 triangles, 8 KB of them.
 pub(super) const MOST_DEPTH: u32 = 8;
 
-/// A triangle after so many uniform bisections, in numbers of its own.
+/// A triangle after a number of uniform bisections, with its own numbering.
 ///
 /// ```text
 ///                 2
@@ -27,9 +27,9 @@ pub(super) struct Template {
     /// Vertices are slots, and neighbours places in this array; across the edges of the block, place 0.
     pub triangles: Vec<Triangle>,
     /// The neighbours of triangle 0: place, and which of their neighbours it is.
-    pub around_first: Vec<Side>,
+    pub around_first: Vec<TemplateEdge>,
     /// For each edge of the block the triangles along it, anticlockwise around the block.
-    pub borders: [Vec<Side>; 3],
+    pub borders: [Vec<TemplateEdge>; 3],
     /// For each slot its node as a mean of the corners: how much each of them counts.
     weights: Vec<[u16; 3]>,
     /// For each slot one of the triangles around it.
@@ -39,7 +39,7 @@ pub(super) struct Template {
 
 /// An edge of a triangle of a template: its place, and the number of the edge.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Side {
+pub(super) struct TemplateEdge {
     pub triangle: u32,
     pub edge: u8,
 }
@@ -105,7 +105,7 @@ impl Template {
         LatticePoint::new(at(a.x, b.x, c.x), at(a.y, b.y, c.y))
     }
 
-    /// Bisects a triangle of this level, 0 or 1, and numbers what comes of it.
+    /// Bisects a triangle of this level, 0 or 1, and numbers the resulting triangles.
     fn new(depth: u32, level: u32, orientation: Orientation) -> Self {
         let block = single_triangle(depth, level, orientation);
         let mesh = refined(block.clone(), level + depth);
@@ -119,7 +119,7 @@ impl Template {
         let numbered = |triangle: &Triangle| {
             let vertices = triangle.vertices.map(|node| slot_of[node.index()]);
             let places = triangle.raw_neighbours.map(|n| n.triangle().unwrap_or(TriangleId(0)).into());
-            triangle.renumbered(vertices, places, triangle.kind())
+            triangle.renumbered(vertices, places, triangle.level_and_side())
         };
         Self {
             triangles: mesh.triangles.iter().map(numbered).collect(),
@@ -155,8 +155,8 @@ fn single_triangle(depth: u32, level: u32, orientation: Orientation) -> Mesh {
         (_, Orientation::Anticlockwise) => vec![up, apex, right],
         (_, Orientation::Clockwise) => vec![right, apex, up],
     };
-    let kind = Kind::inside(level);
-    let mut counts = KindCounts::default();
+    let kind = LevelAndSide::inside(level);
+    let mut counts = LevelAndSideCounts::default();
     counts.add(kind);
     let vertices = [0, 1, 2].map(NodeId);
     let triangle = Triangle::new(vertices, [Neighbour::BOUNDARY; 3], orientation, kind);
@@ -205,16 +205,16 @@ fn order_of_slots(edges: [Edge; 3], weights: &[[u16; 3]]) -> Vec<usize> {
 }
 
 /// Returns the edges of all triangles, with what lies across.
-fn sides(mesh: &Mesh) -> impl Iterator<Item = (Side, Neighbour)> + '_ {
+fn sides(mesh: &Mesh) -> impl Iterator<Item = (TemplateEdge, Neighbour)> + '_ {
     mesh.triangles.iter().zip(0..).flat_map(|(triangle, id)| {
         let across = triangle.raw_neighbours.into_iter().zip(0..);
-        across.map(move |(across, edge)| (Side { triangle: id, edge }, across))
+        across.map(move |(across, edge)| (TemplateEdge { triangle: id, edge }, across))
     })
 }
 
 /// Returns the sides along an edge of the block, from its beginning to its end.
-fn border(mesh: &Mesh, edge: Edge, weights: &[[u16; 3]]) -> Vec<Side> {
-    let start = |side: &Side| {
+fn border(mesh: &Mesh, edge: Edge, weights: &[[u16; 3]]) -> Vec<TemplateEdge> {
+    let start = |side: &TemplateEdge| {
         let (from, to) = mesh.triangles[side.triangle as usize].edge_nodes()[usize::from(side.edge)];
         let [from, to] = [from, to].map(|node| weights[node.index()]);
         (is_on(edge, from) && is_on(edge, to)).then_some(from[edge.1])

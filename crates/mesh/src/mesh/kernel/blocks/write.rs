@@ -14,14 +14,14 @@ use std::slice;
 use rayon::prelude::*;
 
 use super::shape::Shape;
-use super::template::{Side, Template, nodes_within};
+use super::template::{Template, TemplateEdge, nodes_within};
 use crate::geometry::LatticePoint;
-use crate::mesh::kernel::memory::{Piece, append_pieces};
+use crate::mesh::kernel::memory::{SpareRoom, append_pieces};
 use crate::mesh::kernel::{
-    KindCounts, LimitError, Limits, Mesh, Neighbour, NodeId, Progress, Triangle, TriangleId,
+    LevelAndSideCounts, LimitError, Limits, Mesh, Neighbour, NodeId, Progress, Triangle, TriangleId,
 };
 
-/// About so many triangles are a chunk, which is written by one thread.
+/// About the number of triangles in a range of blocks, which one thread writes.
 const CHUNK_TRIANGLES: usize = 1 << 14;
 /// The fewest chunks of a slice for each thread.
 const CHUNKS_PER_THREAD: usize = 2;
@@ -38,11 +38,11 @@ pub(super) struct Writer {
     numbers: Vec<Numbers>,
     /// The next numbers that are free.
     free: Free,
-    counts: KindCounts,
+    counts: LevelAndSideCounts,
     /// The number of nodes of the skeleton, and how many of them have a triangle of a block.
     corners: usize,
     settled_corners: usize,
-    chunks: Vec<Chunk>,
+    chunks: Vec<BlockRange>,
     /// The first chunk that is not written.
     next: usize,
 }
@@ -67,7 +67,7 @@ struct Numbers {
 
 /// Consecutive blocks.
 #[derive(Clone, Debug)]
-struct Chunk {
+struct BlockRange {
     blocks: Range<usize>,
     /// Number of triangles without the first ones of the blocks.
     triangles: usize,
@@ -75,7 +75,8 @@ struct Chunk {
 }
 
 impl Writer {
-    /// Creates the work of refining each triangle of `skeleton` by so many levels, with nothing written yet.
+    /// Creates the work of refining each triangle of `skeleton` by the number of levels in `depths`, with
+    /// nothing written yet.
     pub fn new(skeleton: &Mesh, depths: Vec<u8>) -> Self {
         let corners = skeleton.nodes.len();
         let free = Free { triangle: skeleton.triangles.len() as u32, node: corners as u32 };
@@ -83,7 +84,7 @@ impl Writer {
             shapes: Vec::with_capacity(depths.len()),
             numbers: Vec::with_capacity(depths.len()),
             free,
-            counts: KindCounts::default(),
+            counts: LevelAndSideCounts::default(),
             corners,
             settled_corners: 0,
             chunks: Vec::new(),
@@ -135,8 +136,8 @@ impl Writer {
         self.settled_corners = end;
     }
 
-    fn write(&self, mesh: &mut Mesh, chunks: &[Chunk]) {
-        let nodes = |chunk: &Chunk| chunk.nodes;
+    fn write(&self, mesh: &mut Mesh, chunks: &[BlockRange]) {
+        let nodes = |chunk: &BlockRange| chunk.nodes;
         let triangles = &mesh.triangles;
         append_pieces(&mut mesh.nodes, chunks.iter().map(nodes), |corners, pieces| {
             let work = pieces.par_iter_mut().zip(chunks).with_max_len(1);
@@ -162,14 +163,14 @@ impl Writer {
             self.number_block(skeleton, block);
             let triangles = (self.free.triangle - before.triangle) as usize;
             let nodes = (self.free.node - before.node) as usize;
-            let has_room = |chunk: &&mut Chunk| chunk.blocks.len() + chunk.triangles < CHUNK_TRIANGLES;
+            let has_room = |chunk: &&mut BlockRange| chunk.blocks.len() + chunk.triangles < CHUNK_TRIANGLES;
             match self.chunks.last_mut().filter(has_room) {
                 Some(chunk) => {
                     chunk.blocks.end = block + 1;
                     chunk.triangles += triangles;
                     chunk.nodes += nodes;
                 }
-                None => self.chunks.push(Chunk { blocks: block..block + 1, triangles, nodes }),
+                None => self.chunks.push(BlockRange { blocks: block..block + 1, triangles, nodes }),
             }
         }
         if end == self.depths.len() {
@@ -180,9 +181,9 @@ impl Writer {
 
     fn number_block(&mut self, skeleton: &Mesh, block: usize) {
         let depth = u32::from(self.depths[block]);
-        let kind = skeleton.triangles[block].kind();
+        let kind = skeleton.triangles[block].level_and_side();
         self.counts.add_many(kind.finer_by(depth), 1 << depth);
-        let shape = Shape::of(skeleton, TriangleId::from_index(block), depth);
+        let shape = Shape::new(skeleton, TriangleId::from_index(block), depth);
         self.shapes.push(shape);
         self.numbers.push(Numbers { triangles: self.free.triangle - 1, nodes: self.free.node });
         self.free.triangle += (1 << depth) - 1;
@@ -215,16 +216,16 @@ impl Writer {
     }
 
     /// Returns the blocks of a chunk that have more than one triangle: the others have no nodes of their own.
-    fn divided_blocks(&self, chunk: &Chunk) -> impl Iterator<Item = (usize, Shape)> {
+    fn divided_blocks(&self, chunk: &BlockRange) -> impl Iterator<Item = (usize, Shape)> {
         chunk.blocks.clone().map(|block| (block, self.shapes[block])).filter(|(_, shape)| !shape.is_one())
     }
 
     fn write_nodes(
         &self,
-        chunk: &Chunk,
+        chunk: &BlockRange,
         skeleton: &[Triangle],
         corners: &[LatticePoint],
-        nodes: &mut Piece<LatticePoint>,
+        nodes: &mut SpareRoom<LatticePoint>,
     ) {
         for (block, shape) in self.divided_blocks(chunk) {
             let corners = skeleton[block].vertices.map(|vertex| corners[vertex.index()]);
@@ -234,7 +235,7 @@ impl Writer {
         }
     }
 
-    fn write_triangles_at(&self, chunk: &Chunk, triangle_at: &mut Piece<TriangleId>) {
+    fn write_triangles_at(&self, chunk: &BlockRange, triangle_at: &mut SpareRoom<TriangleId>) {
         for (block, shape) in self.divided_blocks(chunk) {
             let id = TriangleId::from_index(block);
             for slots in own_slots(shape) {
@@ -244,7 +245,7 @@ impl Writer {
     }
 
     /// Writes the triangles of blocks: the first one of each in the place of the block.
-    fn write_triangles(&self, chunk: &Chunk, blocks: &mut [Triangle], piece: &mut Piece<Triangle>) {
+    fn write_triangles(&self, chunk: &BlockRange, blocks: &mut [Triangle], piece: &mut SpareRoom<Triangle>) {
         let (mut nodes, mut triangles) = (Vec::new(), Vec::new());
         for (block, number) in blocks.iter_mut().zip(chunk.blocks.clone()) {
             let shape = self.shapes[number];
@@ -287,7 +288,7 @@ impl Writer {
     /// The triangles of a block with these nodes.
     fn triangles(&self, number: usize, block: &Triangle, nodes: &[NodeId], triangles: &mut Vec<Triangle>) {
         let (shape, places) = (self.shapes[number], self.numbers[number].triangles);
-        let (template, kind) = (shape.template(), block.kind().finer_by(shape.depth()));
+        let (template, kind) = (shape.template(), block.level_and_side().finer_by(shape.depth()));
         triangles.clear();
         triangles.extend(template.triangles.iter().map(|triangle| {
             let vertices = triangle.vertices.map(|slot| nodes[slot.index()]);
@@ -315,7 +316,7 @@ impl Writer {
     /// Sets what lies across an edge of a block.
     fn link(&self, shape: Shape, edge: usize, across: Neighbour, triangles: &mut [Triangle]) {
         let here = shape.template().borders[edge].iter();
-        let mut set = |side: &Side, across: Neighbour| {
+        let mut set = |side: &TemplateEdge, across: Neighbour| {
             triangles[side.triangle as usize].raw_neighbours[usize::from(side.edge)] = across;
         };
         let Some(across) = across.triangle() else {
@@ -341,7 +342,7 @@ fn own_slots(shape: Shape) -> impl Iterator<Item = Range<usize>> {
 }
 
 /// Returns the entries of the blocks of each chunk; the chunks are consecutive.
-fn parts<'a>(entries: &'a mut [Triangle], chunks: &[Chunk]) -> Vec<&'a mut [Triangle]> {
+fn parts<'a>(entries: &'a mut [Triangle], chunks: &[BlockRange]) -> Vec<&'a mut [Triangle]> {
     let first = chunks.first().map_or(0, |chunk| chunk.blocks.start);
     let mut rest = &mut entries[first..];
     let mut parts = Vec::with_capacity(chunks.len());

@@ -1,4 +1,4 @@
-//! The areas in which a rule has changed, and what is known of the change.
+//! The areas in which a rule has changed, and what is known about the change.
 
 use glam::DVec2;
 
@@ -9,9 +9,9 @@ use crate::mesh::kernel::Mesh;
 /// How the target diameters of a rule change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TargetChange {
-    /// None becomes larger: no triangle that exceeded its target ceases to.
+    /// None becomes larger: every triangle that exceeded its target still does.
     Finer,
-    /// None becomes smaller: no triangle that satisfied its target ceases to.
+    /// None becomes smaller: every triangle that satisfied its target still does.
     Coarser,
     /// Any change.
     Any,
@@ -50,8 +50,8 @@ pub struct ChangedArea {
     pub falloff: Option<Falloff>,
 }
 
-/// A least diameter that grows with the distance from the cause of a change: no smaller target diameter is
-/// other than before.
+/// A minimum diameter that grows with the distance from the cause of a change: no smaller target diameter has
+/// changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Falloff {
     /// The rectangle that contains the cause of the change.
@@ -71,7 +71,7 @@ impl ChangedArea {
         let least = self.falloff.map_or(0.0, |falloff| falloff.least * ROUNDED_DOWN);
         let deepest = mesh.lattice().deepest_level();
         let exceeding = (0..=deepest).take_while(|&level| mesh.diameter(level) > least).count() as u32;
-        // A triangle is also concerned where its parent exceeds the least diameter.
+        // A triangle is also affected where its parent exceeds the minimum diameter.
         exceeding + u32::from(self.change != TargetChange::Finer)
     }
 

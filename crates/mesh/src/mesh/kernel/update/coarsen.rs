@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Updater;
-use super::questions::{Loose, OfParents};
+use super::questions::{LooseStar, StarParentQuestions};
 use crate::mesh::kernel::coarsen::Star;
 use crate::mesh::kernel::{Bitset, Mesh, NodeId, SharedRule, TriangleId, ask_all};
 
@@ -16,7 +16,7 @@ pub(super) struct Freed {
 
 impl Updater {
     /// Looks at up to `most` triangles whose newest vertex may be free to go, and removes the nodes that are.
-    /// Returns at how many triangles it looked.
+    /// Returns how many triangles it looked at.
     pub(super) fn coarsen_on<R: SharedRule>(
         &mut self,
         mesh: &mut Mesh,
@@ -26,7 +26,8 @@ impl Updater {
         // Entries will move: the marks move with them.
         self.forget();
         let (looked, mut stars) = self.take_stars(mesh, most);
-        if let Err(error) = ask_all(&OfParents { mesh, level_cap: self.limits.level_cap() }, &mut stars, rule)
+        if let Err(error) =
+            ask_all(&StarParentQuestions { mesh, level_cap: self.limits.level_cap() }, &mut stars, rule)
         {
             for child in stars.iter().flat_map(|loose| loose.star.children()) {
                 self.loose.insert(child.index());
@@ -42,9 +43,9 @@ impl Updater {
         Ok(looked)
     }
 
-    /// Takes marks until it has looked at `most` triangles. Returns at how many it looked, and the stars
-    /// found, each once.
-    fn take_stars(&mut self, mesh: &Mesh, most: usize) -> (usize, Vec<Loose>) {
+    /// Takes marks until it has looked at `most` triangles. Returns how many it looked at, and each star
+    /// found once.
+    fn take_stars(&mut self, mesh: &Mesh, most: usize) -> (usize, Vec<LooseStar>) {
         let mut stars = std::mem::take(&mut self.stars);
         for looked in 0..most {
             let Some(last) = self.loose.last() else { return (looked, stars) };
@@ -57,7 +58,7 @@ impl Updater {
                     star.children().for_each(|child| {
                         self.loose.remove(child.index());
                     });
-                    stars.push(Loose { star, is_needed: false });
+                    stars.push(LooseStar { star, is_needed: false });
                 }
             }
         }

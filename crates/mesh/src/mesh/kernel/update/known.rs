@@ -4,8 +4,9 @@ use crate::mesh::kernel::{LevelsWithin, TriangleId};
 
 /// A small cache of the known answers for the triangles within an entry of the mesh.
 ///
-/// A triangle that is bisected together with the one across its bisection edge is not the one that the work
-/// list is at. Its children get here what is known of it. An entry that was replaced is asked about again.
+/// A triangle may be bisected together with the one across its bisection edge before the work list reaches
+/// it: its children inherit through this cache what is known about it. An entry that was replaced is asked
+/// about again.
 #[derive(Clone, Debug)]
 pub(super) struct KnownLevels {
     /// The entry and the answers, at the place from the last bits of the entry's number; empty without any.

@@ -10,15 +10,15 @@
 //!
 //! # What is done
 //!
-//! Three kinds of work: *search* for the triangles that touch a changed rectangle; *refine* those that exceed
-//! their target, until none does; *coarsen*: remove nodes that are no longer needed, until there is none.
-//! Rectangles that touch are all searched before the mesh changes: afterwards there may be a hundred times
-//! as many triangles in both. Others wait until the mesh has changed. Rectangles that are large together are
-//! searched at the same time, in parts of the array, of which each is refined and coarsened before the next
-//! one: the mesh begins to follow at once.
+//! There are three passes: *search* for the triangles that touch a changed rectangle; *refine* those that
+//! exceed their target, until none does; *coarsen*: remove nodes that are no longer needed, until there are
+//! none. Rectangles that touch are all searched before the mesh changes: afterwards there may be a hundred
+//! times as many triangles in both. Others wait until the mesh has changed. Rectangles that are large
+//! together are searched at the same time, in parts of the array, of which each is refined and coarsened
+//! before the next one: the mesh begins to follow at once.
 //!
-//! Each kind of work is done in batches: one thread collects triangles, all threads ask the rule about them,
-//! and one thread changes the mesh.
+//! Each pass works in batches: one thread collects triangles, all threads ask the rule about them, and one
+//! thread changes the mesh.
 //!
 //! ```text
 //!   search     collect triangles    ask: does it exceed its target?     mark
@@ -27,7 +27,7 @@
 //!              one thread           all threads                         one thread
 //! ```
 //!
-//! The batches depend on the work alone, and not on the threads: so do the arrays.
+//! The batches depend on the work alone and not on the number of threads, and so do the arrays.
 //!
 //! # Why it ends at the mesh made from scratch
 //!
@@ -72,8 +72,8 @@
 //! # How the work survives the moves
 //!
 //! Coarsening fills gaps in the arrays with the last entries. What is still to be done is a set of marks on
-//! places of the array, and the mark moves with its entry. The list of the triangles that may exceed their
-//! target, which also has what is known of those within them, is made again from the marks. A search from
+//! places of the array, and the mark moves with its entry. The list of triangles that may exceed their
+//! target, which also has what is known about those within them, is rebuilt from the marks. A search from
 //! neighbour to neighbour remembers ids, and during it nothing moves. A search down the array has looked at
 //! all entries from some place on: bisection appends behind it, and the last entries, which fill gaps, lie
 //! behind it, or are still to be looked at.
@@ -96,19 +96,19 @@ use area::Area;
 pub use area::{ChangedArea, Falloff, TargetChange};
 use coarsen::Freed;
 use known::KnownLevels;
-use questions::{Found, Loose, Open};
+use questions::{FoundEntry, LooseStar, OpenTriangle};
 use search::Search;
 
-/// Triangles of a batch, unless a slice is smaller. Few enough that they stay in the cache.
+/// Triangles of a batch, unless a slice is smaller: few enough to stay in the cache.
 const BATCH: usize = 4096;
 
 /// Brings a mesh up to date where its rule has changed, in slices.
 ///
 /// For a mesh that satisfied a monotone rule before ([`Mesh::refine`] makes one), the result is the mesh made
 /// from scratch, up to the order of its entries. The minimum of a target over the closed triangle is such a
-/// rule; the report's Eq. (12), the minimum over the vertices, is not. Time and memory go with the triangles
-/// that touch the changed rectangles, and those that change, and not with the mesh; only for rectangles that
-/// cover an eighth of the lattice, all triangles are looked at. The mesh is conforming after every slice.
+/// rule; the report's Eq. (12), the minimum over the vertices, is not. Time and memory are proportional to
+/// the triangles that touch the changed rectangles or change, and not to the mesh; all triangles are looked
+/// at only where the rectangles cover an eighth of the lattice. The mesh is conforming after every slice.
 ///
 /// ```
 /// use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
@@ -144,14 +144,14 @@ pub struct Updater {
     areas: Vec<Area>,
     /// The search under way.
     search: Option<Search>,
-    /// The hull of the rectangles that were searched since the mesh had no marks.
+    /// The bounding box of the rectangles that were searched since the mesh last had no marks.
     searched: Option<LatticeRect>,
     /// Triangles found by a search from neighbour to neighbour; otherwise empty, and used to sort places.
     reached: Bitset,
     /// Triangles that may exceed their target.
     exceeding: Bitset,
     /// The same as a list, unless it is empty: the last ones are asked about first.
-    open: Vec<Open>,
+    open: Vec<OpenTriangle>,
     /// The number of entries at the beginning of this list whose answers are those of a former rule.
     outdated: usize,
     /// What is known of the triangles in this list.
@@ -167,15 +167,15 @@ pub struct Updater {
     starts: WalkStarts,
     /// Memory that is used again, empty between calls.
     chain: Vec<TriangleId>,
-    found: Vec<Found>,
-    batch: Vec<Open>,
-    stars: Vec<Loose>,
+    found: Vec<FoundEntry>,
+    batch: Vec<OpenTriangle>,
+    stars: Vec<LooseStar>,
     freed: Freed,
 }
 
-/// The kind of work that comes next.
+/// The pass that comes next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Work {
+enum NextPass {
     Search,
     Refine,
     Coarsen,
@@ -254,7 +254,7 @@ impl Updater {
 
     /// Returns whether nothing is left to do.
     pub fn is_done(&self) -> bool {
-        self.next_work() == Work::Nothing
+        self.next_pass() == NextPass::Nothing
     }
 
     /// Returns whether rectangles are left to be searched.
@@ -268,24 +268,24 @@ impl Updater {
         self.areas.iter().rposition(|area| area.changed.rect.meets(&searched))
     }
 
-    fn next_work(&self) -> Work {
+    fn next_pass(&self) -> NextPass {
         let is_searching = match &self.search {
             Some(Search::Flood(..)) => true,
             Some(Search::Scan(scan)) => !scan.has_part(),
             None => false,
         };
         if is_searching || (self.is_short && self.has_areas()) || self.area_beside().is_some() {
-            Work::Search
+            NextPass::Search
         } else if self.is_short && self.loose.count() > 0 {
-            Work::Coarsen
+            NextPass::Coarsen
         } else if self.exceeding.count() > 0 {
-            Work::Refine
+            NextPass::Refine
         } else if self.loose.count() > 0 {
-            Work::Coarsen
+            NextPass::Coarsen
         } else if self.has_areas() {
-            Work::Search
+            NextPass::Search
         } else {
-            Work::Nothing
+            NextPass::Nothing
         }
     }
 
@@ -334,14 +334,14 @@ impl Updater {
         // Ends: see the head of this file.
         while left > 0 {
             let most = left.min(BATCH);
-            let looked = match self.next_work() {
-                Work::Search => self.search_on(mesh, rule, most).map_err(RefineError::Rule)?,
-                Work::Refine => {
+            let looked = match self.next_pass() {
+                NextPass::Search => self.search_on(mesh, rule, most).map_err(RefineError::Rule)?,
+                NextPass::Refine => {
                     self.is_short = false;
                     self.refine_on(mesh, rule, &mut room, most)?
                 }
-                Work::Coarsen => self.coarsen_on(mesh, rule, most).map_err(RefineError::Rule)?,
-                Work::Nothing => break,
+                NextPass::Coarsen => self.coarsen_on(mesh, rule, most).map_err(RefineError::Rule)?,
+                NextPass::Nothing => break,
             };
             left -= looked.clamp(1, left);
         }

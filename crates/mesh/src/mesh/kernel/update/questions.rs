@@ -5,22 +5,22 @@ use crate::mesh::kernel::{LevelsWithin, Mesh, Questions, RuleAnswers, Triangle, 
 
 /// A triangle that a search has found, and that a change can have made exceed its target.
 #[derive(Clone, Debug)]
-pub(super) struct Found {
+pub(super) struct FoundEntry {
     pub(super) id: TriangleId,
     /// Whether it exceeds its target.
     pub(super) exceeds: bool,
 }
 
 /// Asks whether entries of the mesh exceed their targets: most do not.
-pub(super) struct OfEntries<'a> {
+pub(super) struct EntryQuestions<'a> {
     pub(super) mesh: &'a Mesh,
 }
 
-impl Questions for OfEntries<'_> {
-    type Question = Found;
+impl Questions for EntryQuestions<'_> {
+    type Question = FoundEntry;
 
     #[inline]
-    fn ask<A: RuleAnswers>(&self, found: &mut Found, answers: &mut A) -> Result<(), A::Error> {
+    fn ask<A: RuleAnswers>(&self, found: &mut FoundEntry, answers: &mut A) -> Result<(), A::Error> {
         let (corners, level) = (self.mesh.corners(found.id), self.mesh.triangle(found.id).level());
         found.exceeds = answers.exceeds(corners, level)?;
         Ok(())
@@ -29,7 +29,7 @@ impl Questions for OfEntries<'_> {
 
 /// A triangle that may exceed its target.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Open {
+pub(super) struct OpenTriangle {
     pub(super) id: TriangleId,
     /// The level of the triangle. That of the entry is finer once the triangle was bisected.
     pub(super) level: u32,
@@ -38,16 +38,16 @@ pub(super) struct Open {
 }
 
 /// Asks whether triangles exceed their targets, and those within them.
-pub(super) struct Within<'a> {
+pub(super) struct SubtreeQuestions<'a> {
     pub(super) mesh: &'a Mesh,
 }
 
-impl Questions for Within<'_> {
-    type Question = Open;
+impl Questions for SubtreeQuestions<'_> {
+    type Question = OpenTriangle;
 
     #[inline]
-    fn ask<A: RuleAnswers>(&self, open: &mut Open, answers: &mut A) -> Result<(), A::Error> {
-        let &mut Open { id, level, known } = open;
+    fn ask<A: RuleAnswers>(&self, open: &mut OpenTriangle, answers: &mut A) -> Result<(), A::Error> {
+        let &mut OpenTriangle { id, level, known } = open;
         if self.mesh.triangle(id).level() == level {
             open.known = known.or_ask(level, || answers.levels_within(self.mesh.corners(id), level))?;
         }
@@ -57,23 +57,23 @@ impl Questions for Within<'_> {
 
 /// The triangles around a node that can go, if neither parent needs it.
 #[derive(Clone, Debug)]
-pub(super) struct Loose {
+pub(super) struct LooseStar {
     pub(super) star: Star,
     /// Whether a parent exceeds its target.
     pub(super) is_needed: bool,
 }
 
 /// Asks whether the parents of stars exceed their targets.
-pub(super) struct OfParents<'a> {
+pub(super) struct StarParentQuestions<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) level_cap: u32,
 }
 
-impl Questions for OfParents<'_> {
-    type Question = Loose;
+impl Questions for StarParentQuestions<'_> {
+    type Question = LooseStar;
 
     #[inline]
-    fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
+    fn ask<A: RuleAnswers>(&self, loose: &mut LooseStar, answers: &mut A) -> Result<(), A::Error> {
         let parents = self.mesh.parents(&loose.star);
         let of_parent =
             |parent: &Triangle| (parent.vertices.map(|node| self.mesh.node(node)), parent.level());

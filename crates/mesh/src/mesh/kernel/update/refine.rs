@@ -1,7 +1,7 @@
 //! Bisects what exceeds its target.
 
 use super::Updater;
-use super::questions::{Open, Within};
+use super::questions::{OpenTriangle, SubtreeQuestions};
 use crate::mesh::kernel::{LevelsWithin, LimitError, Mesh, RefineError, SharedRule, TriangleId, ask_all};
 
 impl Updater {
@@ -23,7 +23,7 @@ impl Updater {
         self.outdated -= outdated;
         batch.extend(self.open.drain(from..));
         batch[..outdated].iter_mut().for_each(|open| open.known = LevelsWithin::UNKNOWN);
-        let asked = ask_all(&Within { mesh }, &mut batch, rule).map_err(RefineError::Rule);
+        let asked = ask_all(&SubtreeQuestions { mesh }, &mut batch, rule).map_err(RefineError::Rule);
         batch.iter().for_each(|open| self.known.set(open.id, open.known));
         let mut done = 0;
         let result = asked.and_then(|()| {
@@ -40,7 +40,7 @@ impl Updater {
         batch.clear();
         self.batch = batch;
         match result {
-            // What can go may make room, also where it is not searched yet.
+            // Nodes that can be removed may make room, even where nothing was searched yet.
             Err(error) if error.is_over_budget() && (self.has_areas() || self.loose.count() > 0) => {
                 self.is_short = true;
                 Ok(done)
@@ -53,14 +53,18 @@ impl Updater {
     fn reopen(&mut self, mesh: &Mesh) {
         for index in self.exceeding.clone().take_ranges().into_iter().flatten() {
             let id = TriangleId::from_index(index);
-            self.note_open(Open { id, level: mesh.triangle(id).level(), known: LevelsWithin::UNKNOWN });
+            self.note_open(OpenTriangle {
+                id,
+                level: mesh.triangle(id).level(),
+                known: LevelsWithin::UNKNOWN,
+            });
         }
     }
 
     /// Bisects a triangle if it exceeds its target.
     #[inline]
-    fn close(&mut self, mesh: &mut Mesh, open: &Open, room: &mut usize) -> Result<(), LimitError> {
-        let &Open { id, level, known } = open;
+    fn close(&mut self, mesh: &mut Mesh, open: &OpenTriangle, room: &mut usize) -> Result<(), LimitError> {
+        let &OpenTriangle { id, level, known } = open;
         if mesh.triangle(id).level() != level {
             // It was bisected with another one, and its children are listed.
             return Ok(());
@@ -74,8 +78,8 @@ impl Updater {
 
     /// Bisects a triangle and what must be bisected with it.
     #[inline]
-    fn bisect(&mut self, mesh: &mut Mesh, open: &Open, room: &mut usize) -> Result<(), LimitError> {
-        let &Open { id, level, .. } = open;
+    fn bisect(&mut self, mesh: &mut Mesh, open: &OpenTriangle, room: &mut usize) -> Result<(), LimitError> {
+        let &OpenTriangle { id, level, .. } = open;
         if level >= mesh.lattice().deepest_level() {
             return Err(RefineError::too_fine(mesh.lattice(), mesh.node(mesh.triangle(id).vertices[0])));
         }
@@ -106,7 +110,7 @@ impl Updater {
 
     /// Adds a marked triangle to the list.
     #[inline]
-    pub(super) fn note_open(&mut self, open: Open) {
+    pub(super) fn note_open(&mut self, open: OpenTriangle) {
         self.known.set(open.id, open.known);
         self.open.push(open);
     }
@@ -122,14 +126,14 @@ impl Updater {
                 self.exceeding.remove(parent.index());
             } else {
                 self.exceeding.insert(new.index());
-                [parent, new].into_iter().for_each(|id| self.note_open(Open { id, level, known }));
+                [parent, new].into_iter().for_each(|id| self.note_open(OpenTriangle { id, level, known }));
             }
         } else if self.is_unsearched(parent) {
             // The search will not come to the end of the array again.
             let level = mesh.triangle(new).level();
             self.exceeding.insert(new.index());
             self.loose.insert(new.index());
-            self.note_open(Open { id: new, level, known: LevelsWithin::UNKNOWN });
+            self.note_open(OpenTriangle { id: new, level, known: LevelsWithin::UNKNOWN });
         }
     }
 }

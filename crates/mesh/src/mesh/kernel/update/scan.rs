@@ -1,4 +1,4 @@
-//! The search of areas that are large together: through all entries of the array.
+//! The search of several areas that together are large: through all entries of the array.
 
 use super::BATCH;
 use super::area::Area;
@@ -15,8 +15,8 @@ pub(super) struct Scan {
     grid: AreaGrid,
     /// No area concerns a triangle of this level or a finer one.
     levels: u32,
-    /// The entries before this one are left: what is appended or moved meanwhile comes to lie behind it, or
-    /// was before it already.
+    /// The entries before this one are still to be looked at: what is appended or moved in the meantime ends
+    /// up after it, or was before it already.
     left: usize,
     /// The triangles of this part that are concerned. The mesh changes after each part.
     concerned: usize,

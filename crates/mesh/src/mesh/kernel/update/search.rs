@@ -1,9 +1,9 @@
 //! The search for the triangles that a change can concern.
 
 use super::area::Area;
-use super::questions::{Found, OfEntries};
+use super::questions::{EntryQuestions, FoundEntry};
 use super::scan::{Concern, Scan};
-use super::{Open, Updater};
+use super::{OpenTriangle, Updater};
 use crate::geometry::LatticeRect;
 use crate::mesh::kernel::{LevelsWithin, Mesh, RectSearch, SharedRule, TriangleId, ask_all};
 
@@ -49,7 +49,7 @@ impl Updater {
             Search::Flood(area, flood) => self.flood(mesh, area, flood, &mut found, most),
             Search::Scan(scan) => self.scan(mesh, scan, &mut found, most),
         };
-        let asked = ask_all(&OfEntries { mesh }, &mut found, rule);
+        let asked = ask_all(&EntryQuestions { mesh }, &mut found, rule);
         if asked.is_ok() {
             found.iter().filter(|found| found.exceeds).for_each(|found| self.mark(mesh, found.id));
         }
@@ -97,7 +97,7 @@ impl Updater {
         mesh: &Mesh,
         area: &Area,
         flood: &mut RectSearch,
-        found: &mut Vec<Found>,
+        found: &mut Vec<FoundEntry>,
         most: usize,
     ) -> (usize, bool) {
         for looked in 0..most {
@@ -115,7 +115,13 @@ impl Updater {
     }
 
     /// Looks at the last `most` entries that are left. Returns how many, and whether these are all.
-    fn scan(&mut self, mesh: &Mesh, scan: &mut Scan, found: &mut Vec<Found>, most: usize) -> (usize, bool) {
+    fn scan(
+        &mut self,
+        mesh: &Mesh,
+        scan: &mut Scan,
+        found: &mut Vec<FoundEntry>,
+        most: usize,
+    ) -> (usize, bool) {
         if scan.has_part() {
             scan.begin_part();
         }
@@ -133,9 +139,9 @@ impl Updater {
 
     /// Notes what changes can have done to a triangle.
     #[inline]
-    fn note(&mut self, mesh: &Mesh, id: TriangleId, concern: Concern, found: &mut Vec<Found>) {
+    fn note(&mut self, mesh: &Mesh, id: TriangleId, concern: Concern, found: &mut Vec<FoundEntry>) {
         if concern.asks && mesh.triangle(id).level() < self.limits.level_cap() {
-            found.push(Found { id, exceeds: false });
+            found.push(FoundEntry { id, exceeds: false });
         }
         if concern.loosens {
             self.loose.insert(id.index());
@@ -150,7 +156,7 @@ impl Updater {
     fn mark(&mut self, mesh: &Mesh, id: TriangleId) {
         if self.exceeding.insert(id.index()) {
             let level = mesh.triangle(id).level();
-            self.note_open(Open { id, level, known: LevelsWithin::of_one(level, true) });
+            self.note_open(OpenTriangle { id, level, known: LevelsWithin::single(level, true) });
         }
     }
 

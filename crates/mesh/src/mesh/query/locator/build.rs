@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{Half, Locator, Square, Table, quarter};
+use super::{Half, Locator, LocatorSquare, Table, quarter};
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{Mesh, TriangleId, make_room};
 
@@ -117,11 +117,11 @@ impl Bands {
     }
 
     /// Puts the small triangles into quarters below the squares of the table.
-    fn quarters(&self, mesh: &Mesh, table: &mut Table, sorted: &[Sorted]) -> Vec<[Square; 4]> {
+    fn quarters(&self, mesh: &Mesh, table: &mut Table, sorted: &[Sorted]) -> Vec<[LocatorSquare; 4]> {
         let (columns, side_bits) = (table.columns, table.side_bits);
         let squares_of_band = columns * self.rows_of_band;
         let bands = table.squares.par_chunks_mut(squares_of_band).enumerate();
-        let parts: Vec<Vec<[Square; 4]>> = bands
+        let parts: Vec<Vec<[LocatorSquare; 4]>> = bands
             .map(|(number, squares)| {
                 let first = number * squares_of_band;
                 let mut band = Band { columns, side_bits, first, squares, quarters: Vec::new() };
@@ -147,7 +147,11 @@ impl Bands {
 }
 
 /// Returns the quarters of all bands in one array; divided squares get the places there.
-fn join(table: &mut Table, squares_of_band: usize, mut parts: Vec<Vec<[Square; 4]>>) -> Vec<[Square; 4]> {
+fn join(
+    table: &mut Table,
+    squares_of_band: usize,
+    mut parts: Vec<Vec<[LocatorSquare; 4]>>,
+) -> Vec<[LocatorSquare; 4]> {
     let (mut firsts, mut total) = (Vec::new(), 0);
     for part in &parts {
         firsts.push(total);
@@ -173,13 +177,13 @@ struct Band<'a> {
     side_bits: u32,
     /// The number of the first square in the table.
     first: usize,
-    squares: &'a mut [Square],
-    quarters: Vec<[Square; 4]>,
+    squares: &'a mut [LocatorSquare],
+    quarters: Vec<[LocatorSquare; 4]>,
 }
 
 impl Band<'_> {
     /// Returns the square of side 2^`bits` with the given corner, after the divisions that this takes.
-    fn square_mut(&mut self, origin: LatticePoint, bits: u32) -> &mut Square {
+    fn square_mut(&mut self, origin: LatticePoint, bits: u32) -> &mut LocatorSquare {
         let row = (origin.y >> self.side_bits) as usize;
         let number = row * self.columns + (origin.x >> self.side_bits) as usize - self.first;
         let mut place = divide(&mut self.squares[number], &mut self.quarters);
@@ -195,10 +199,10 @@ impl Band<'_> {
     }
 }
 
-fn divide(square: &mut Square, quarters: &mut Vec<[Square; 4]>) -> usize {
+fn divide(square: &mut LocatorSquare, quarters: &mut Vec<[LocatorSquare; 4]>) -> usize {
     square.place_of_quarters().unwrap_or_else(|| {
         quarters.push(square.quarters());
-        *square = Square::divided(quarters.len() - 1);
+        *square = LocatorSquare::divided(quarters.len() - 1);
         quarters.len() - 1
     })
 }

@@ -20,7 +20,7 @@ use crate::mesh::kernel::{Mesh, TriangleId, WalkEnd};
 pub struct Locator<'m> {
     mesh: &'m Mesh,
     table: Table,
-    quarters: Vec<[Square; 4]>,
+    quarters: Vec<[LocatorSquare; 4]>,
 }
 
 /// Squares of one size that cover the grid, row by row from the lower left.
@@ -29,7 +29,7 @@ struct Table {
     columns: usize,
     /// Binary logarithm of the side of a square, in lattice steps.
     side_bits: u32,
-    squares: Vec<Square>,
+    squares: Vec<LocatorSquare>,
 }
 
 /// A square of the lattice, with a triangle on either side of a diagonal; or the place of its quarters.
@@ -41,7 +41,7 @@ struct Table {
 ///     o-------o      o-------o
 /// ```
 #[derive(Clone, Copy)]
-struct Square {
+struct LocatorSquare {
     /// The triangle below the diagonal, or `NOTHING`; or with the `FLAG` the place of the quarters.
     below: u32,
     /// The triangle above it, or `NOTHING`; with the `FLAG` where the diagonal rises.
@@ -60,7 +60,7 @@ struct Half {
     above: bool,
 }
 
-impl Square {
+impl LocatorSquare {
     const EMPTY: Self = Self { below: NOTHING, above: NOTHING };
 
     fn divided(place: usize) -> Self {
@@ -113,12 +113,12 @@ impl Square {
 impl Table {
     fn of_coarse_cells(lattice: &Lattice) -> Self {
         let [columns, rows] = lattice.cells().map(|n| n as usize);
-        Self { columns, side_bits: lattice.halvings(), squares: vec![Square::EMPTY; columns * rows] }
+        Self { columns, side_bits: lattice.halvings(), squares: vec![LocatorSquare::EMPTY; columns * rows] }
     }
 
     /// Divides all squares into quarters.
     fn divide(&mut self) {
-        let mut finer = vec![Square::EMPTY; 4 * self.squares.len()];
+        let mut finer = vec![LocatorSquare::EMPTY; 4 * self.squares.len()];
         for (n, square) in self.squares.iter().enumerate() {
             let lower_left = 4 * self.columns * (n / self.columns) + 2 * (n % self.columns);
             let upper_left = lower_left + 2 * self.columns;
@@ -159,7 +159,7 @@ impl Locator<'_> {
     /// Returns the smallest square around a point in lattice coordinates, and the binary logarithm of its
     /// side.
     #[inline]
-    fn square_around(&self, p: DVec2) -> Option<(Square, u32)> {
+    fn square_around(&self, p: DVec2) -> Option<(LocatorSquare, u32)> {
         let extent = self.mesh.lattice.extent();
         if !(p.x >= 0.0 && p.y >= 0.0 && p.x < f64::from(extent.x) && p.y < f64::from(extent.y)) {
             return None;
@@ -176,7 +176,7 @@ impl Locator<'_> {
 
     /// Returns the answer for a point on the rim or the diagonal of its square, by a short walk. `None` in
     /// and beside a hole, and at the coarse nodes, where parts of the domain may touch that no walk joins.
-    fn on_a_line(&self, square: Square, p: DVec2) -> Option<Location> {
+    fn on_a_line(&self, square: LocatorSquare, p: DVec2) -> Option<Location> {
         let at_coarse_node = p % f64::from(self.mesh.lattice.cell_steps()) == DVec2::ZERO;
         let hint = [square.below, square.above & !FLAG].into_iter().find(|&id| id != NOTHING)?;
         match self.mesh.walk(TriangleId(hint), p) {

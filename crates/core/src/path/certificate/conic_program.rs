@@ -1,4 +1,4 @@
-//! The dual as a second-order cone programme.
+//! The dual problem as a second-order cone program (SOCP).
 //!
 //! ```text
 //! maximize    v(goal) − v(start)
@@ -20,7 +20,7 @@ use super::minorant::Minorant;
 use super::quadratic::QuadraticSpace;
 
 /// The solver's answer. It need not be optimal or feasible to be useful.
-pub(super) struct ProgrammeSolution {
+pub(super) struct ConicSolution {
     /// The values of v, in the unit of the cost.
     pub function: Vec<f64>,
     /// For each triangle and corner the multiplier of its cone in world coordinates: the amount and the
@@ -35,12 +35,12 @@ pub(super) struct ProgrammeSolution {
 pub(super) enum Unsolved {
     /// The work was told to stop.
     Stopped,
-    /// The solver does not take the programme, or failed so badly that there is no answer.
+    /// The solver does not take the program, or failed so badly that there is no answer.
     Failed,
 }
 
-/// The programme of a space of functions.
-pub(super) struct Programme<'a> {
+/// The program of a space of functions.
+pub(super) struct ConicProgram<'a> {
     pub space: &'a QuadraticSpace,
     /// ℓ in each triangle.
     pub minorants: &'a [Minorant],
@@ -54,16 +54,16 @@ pub(super) struct Programme<'a> {
     pub accuracy: f64,
 }
 
-impl Programme<'_> {
+impl ConicProgram<'_> {
     /// Solves it. Once `stop` is true, that ends within an iteration.
-    pub(super) fn solve(&self, stop: Arc<AtomicBool>) -> Result<ProgrammeSolution, Unsolved> {
+    pub(super) fn solve(&self, stop: Arc<AtomicBool>) -> Result<ConicSolution, Unsolved> {
         let mut solver = self.solver().ok_or(Unsolved::Failed)?;
         solver.set_termination_callback(move |_| stop.load(Ordering::Relaxed));
         solver.solve();
         let solution = solver.solution;
         match solution.status {
             SolverStatus::CallbackTerminated => Err(Unsolved::Stopped),
-            _ if solution.x.iter().all(|value| value.is_finite()) => Ok(ProgrammeSolution {
+            _ if solution.x.iter().all(|value| value.is_finite()) => Ok(ConicSolution {
                 function: self.function(&solution.x),
                 flows: self.flows(&solution.z),
                 steps: solution.iterations,
