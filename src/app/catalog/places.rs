@@ -3,7 +3,7 @@
 use crate::app::kit::Place;
 
 /// The places, section by section.
-pub static PLACES: [Place; 27] = [
+pub static PLACES: [Place; 28] = [
     Place::new("layers", "Layers", "").words("stack order visible hide lock"),
     Place::new("gradation", "Gradation", "Limit gradation").words("growth smooth grading slope"),
     Place::new("layers", "Selected layer", "").words("combine finest floor replace mask curve formula"),

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::arrangement::{Arrangement, Span};
 use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS};
-use super::device::{Gpu, STORAGE_BUFFERS};
+use super::device::Gpu;
 use super::error::GpuError;
-use super::pipelines::{uniform_buffer, uniform_entry};
+use super::pipelines::uniform_buffer;
 use super::sending::{joined, send, send_joined, send_ranges};
 use crate::render::draw_flags::DrawFlags;
 use crate::scene::Style;
@@ -117,7 +117,7 @@ impl MeshCopy {
             Some(true) => self.bind(gpu),
             Some(false) => {}
         }
-        Ok(self.arrangement.advance(&gpu.queue, mesh, blocks))
+        Ok(self.arrangement.advance(gpu.queue(), mesh, blocks))
     }
 
     /// Returns the triangles of a buffer that must be drawn where `view` is visible, at a detail level.
@@ -132,7 +132,7 @@ impl MeshCopy {
             mesh.raw_triangle_count(),
             "the mesh changed during its upload without apply_changes"
         );
-        let queue = &gpu.queue;
+        let queue = gpu.queue();
         let bytes = send(queue, &self.mesh.nodes, mesh.raw_nodes(), &mut sent.nodes, byte_budget);
         let left = byte_budget.saturating_sub(bytes);
         let first = sent.triangles;
@@ -142,7 +142,7 @@ impl MeshCopy {
 
     /// Writes the changed entries among the first `present` ones, and all flags.
     pub(super) fn write(&mut self, gpu: &Gpu, mesh: &Mesh, present: Counts, changes: &Changes) {
-        let (queue, arrays) = (&gpu.queue, &self.mesh);
+        let (queue, arrays) = (gpu.queue(), &self.mesh);
         send_ranges(queue, &arrays.nodes, &mesh.raw_nodes()[..present.nodes], &changes.nodes);
         let triangles = &mesh.raw_triangles()[..present.triangles];
         send_ranges(queue, &arrays.triangles, triangles, &changes.triangles);
@@ -163,9 +163,9 @@ impl MeshCopy {
                 self.replaced.push(id);
             }
         }
-        self.flags.send_ids(&gpu.queue, former.into_iter());
+        self.flags.send_ids(gpu.queue(), former.into_iter());
         self.has_pieces = fitted.is_ok() && pieces.is_some();
-        self.flags.send_ids(&gpu.queue, self.replaced.iter().copied());
+        self.flags.send_ids(gpu.queue(), self.replaced.iter().copied());
         fitted
     }
 
@@ -174,8 +174,8 @@ impl MeshCopy {
         gpu.check_nodes(nodes.len())?;
         self.pieces.fit(gpu, nodes.len(), triangles.len(), Counts::NONE)?;
         self.pieces.bind(gpu, None, None);
-        self.pieces.nodes.write(&gpu.queue, 0, bytemuck::cast_slice(nodes));
-        self.pieces.triangles.write(&gpu.queue, 0, bytemuck::cast_slice(triangles));
+        self.pieces.nodes.write(gpu.queue(), 0, bytemuck::cast_slice(nodes));
+        self.pieces.triangles.write(gpu.queue(), 0, bytemuck::cast_slice(triangles));
         Ok(())
     }
 
@@ -205,8 +205,8 @@ impl MeshCopy {
         }
         let mut ranges: Vec<_> = touched.iter().map(|(_, range)| range.clone()).collect();
         ranges.sort_unstable_by_key(|range| range.start);
-        send_ranges(&gpu.queue, &self.pieces.triangles, pieces.triangles(), &ranges);
-        self.flags.send_ids(&gpu.queue, ids.into_iter());
+        send_ranges(gpu.queue(), &self.pieces.triangles, pieces.triangles(), &ranges);
+        self.flags.send_ids(gpu.queue(), ids.into_iter());
         Ok(true)
     }
 
@@ -219,7 +219,7 @@ impl MeshCopy {
             self.pieces.bind(gpu, None, None);
         }
         let added = bytemuck::cast_slice(&nodes[kept.nodes..]);
-        self.pieces.nodes.write(&gpu.queue, kept.nodes, added);
+        self.pieces.nodes.write(gpu.queue(), kept.nodes, added);
         Ok(())
     }
 
@@ -262,7 +262,7 @@ impl Arrays {
         triangle_count: usize,
         kept: Counts,
     ) -> Result<bool, GpuError> {
-        let (device, queue) = (&gpu.device, &gpu.queue);
+        let (device, queue) = (gpu.device(), gpu.queue());
         let nodes = self.nodes.reserve(device, queue, node_count, kept.nodes)?;
         let triangles = self.triangles.reserve(device, queue, triangle_count, kept.triangles)?;
         (self.node_count, self.triangle_count) = (node_count, triangle_count);
@@ -274,10 +274,14 @@ impl Arrays {
         let nodes: [&wgpu::Buffer; NODE_BUFFERS] =
             std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(gpu.nothing()));
         let bind = |(chunk, triangles): (usize, &wgpu::Buffer)| {
-            let part = uniform_buffer(&gpu.device, "part of a mesh", PART_BYTES);
-            let first = (chunk * gpu.limits.triangles) as u32;
+            let part = uniform_buffer(gpu.device(), "part of a mesh", PART_BYTES);
+            let first = (chunk * gpu.limits().triangles) as u32;
             let first_place = arrangement.map_or(0, |arrangement| arrangement.first_place(chunk)) as u32;
-            gpu.queue.write_buffer(&part, 0, bytemuck::bytes_of(&[first, first_place, gpu.limits.node_bits]));
+            gpu.queue().write_buffer(
+                &part,
+                0,
+                bytemuck::bytes_of(&[first, first_place, gpu.limits().node_bits]),
+            );
             let lists = arrangement.and_then(Arrangement::buffer);
             let buffers = [triangles].into_iter().chain(nodes);
             let buffers =
@@ -289,7 +293,7 @@ impl Arrays {
                     resource: buffer.as_entire_binding(),
                 })
                 .collect();
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("mesh"),
                 layout: gpu.layout(),
                 entries: &entries,
@@ -314,9 +318,9 @@ impl FlagArray {
     fn fit(&mut self, gpu: &Gpu, triangles: usize) -> Result<bool, GpuError> {
         self.flags.resize(triangles);
         let words = self.flags.words();
-        let replaced = self.words.reserve(&gpu.device, &gpu.queue, words.len(), 0)?;
+        let replaced = self.words.reserve(gpu.device(), gpu.queue(), words.len(), 0)?;
         if replaced {
-            self.words.write(&gpu.queue, 0, bytemuck::cast_slice(words));
+            self.words.write(gpu.queue(), 0, bytemuck::cast_slice(words));
         }
         Ok(replaced)
     }
