@@ -298,15 +298,14 @@ mod tests {
     use crate::field::{RefinementRule, Transfer};
     use crate::geometry::Lattice;
     use crate::layers::extent::{Extent, ExtentContext};
-    use crate::layers::{DistanceTo, Layer, LayerKind, ShapeList, Shapes, SizeFieldSpec};
+    use crate::layers::{DistanceLayer, DistanceTo, Layer, LayerKind, ShapeList, Shapes, SizeFieldSpec};
 
     #[test]
     fn a_corridor_asks_for_nothing_beyond_its_extent() {
         let lines = vec![vec![dvec2(0.3, 0.4), dvec2(0.6, 0.5)]];
         let lines = Shapes::new(ShapeList { lines, ..ShapeList::default() }, false).unwrap();
         let to = DistanceTo::Corridor { lines, width: 0.1 };
-        let layer =
-            Layer::stack([LayerKind::Distance { to, at_zero: 0.01, slope: 0.1, range: 0.15 }]).remove(0);
+        let layer = Layer::stack([DistanceLayer { to, at_zero: 0.01, slope: 0.1, range: 0.15 }]).remove(0);
         let paint = PaintLayers::default();
         let spec = SizeFieldSpec {
             layers: vec![layer.clone()],

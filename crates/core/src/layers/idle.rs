@@ -3,7 +3,7 @@
 use super::engine::CompiledLayer;
 use super::engine::cells::Cells;
 use super::size_field::SizeField;
-use super::{DepthRule, Layer, LayerId, LayerKind, PaintLayers, Quantity};
+use super::{Layer, LayerId, PaintLayers};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 
@@ -26,7 +26,7 @@ impl SizeField {
         let largest = h_max.min(self.longest());
         let level = self.level_of_diameter(largest, place).unwrap_or(0);
         let is_painted = |layer: &Layer| paint.get(layer.id).is_some() || layer.paints().is_none();
-        let is_asked = |layer: &&Layer| asks_for_diameters(layer) && is_painted(layer);
+        let is_asked = |layer: &&Layer| layer.kind.asks_for_diameters() && is_painted(layer);
         let candidates: Vec<LayerId> =
             self.spec().layers.iter().filter(is_asked).map(|layer| layer.id).collect();
         let layers =
@@ -34,7 +34,8 @@ impl SizeField {
         // A diameter may say the limit itself, and what no mesh can meet is an error.
         let says_limit = |layer: &CompiledLayer| {
             let diameter = layer.diameter_at(paint, place);
-            let is_diameter = self.spec().layers.iter().any(|one| one.id == layer.id && is_diameter(one));
+            let is_diameter =
+                self.spec().layers.iter().any(|one| one.id == layer.id && one.kind.says_diameters());
             diameter.is_nan() || diameter <= 0.0 || (is_diameter && diameter <= largest)
         };
         let is_idle = |layer: &&CompiledLayer| {
@@ -48,20 +49,6 @@ impl SizeField {
         };
         layers.filter(is_idle).map(|layer| layer.id).collect()
     }
-}
-
-/// Returns whether a layer is for diameters.
-fn asks_for_diameters(layer: &Layer) -> bool {
-    match &layer.kind {
-        LayerKind::Surface(_) => false,
-        LayerKind::Depth(depths) => depths.sizes().rule != DepthRule::Nothing,
-        _ => true,
-    }
-}
-
-/// Returns whether a layer is a formula for the diameter itself.
-fn is_diameter(layer: &Layer) -> bool {
-    matches!(layer.kind, LayerKind::Formula { quantity: Quantity::Diameter, .. })
 }
 
 /// Returns triangles that cover the squares of the coarse grid.

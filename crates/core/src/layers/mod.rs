@@ -12,6 +12,7 @@ mod engine;
 mod extent;
 mod feature_size;
 mod idle;
+mod kinds;
 mod layer;
 mod least;
 mod mask;
@@ -52,7 +53,11 @@ use depth_surface::{hidden_differently, hiding, surface_changes};
 pub(crate) use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};
 pub use feature_size::{FeatureSize, WaterMiddle};
-pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};
+pub use kinds::{
+    BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerKind, LayerSource, PaintLayer, RasterLayer,
+    RasterReading, RasterSource,
+};
+pub use layer::{Combine, Layer, LayerId, Quantity};
 pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
 pub(crate) use models::ModelPlace;

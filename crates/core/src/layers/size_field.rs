@@ -5,7 +5,7 @@ use super::engine::patch::Patch;
 use super::engine::reading::{Answer, largest_below};
 use super::engine::search::any_cell;
 use super::engine::{CompiledLayer, CompiledPlane, KnownParts, gradation};
-use super::{Combine, Layer, LayerId, LayerKind, PaintLayers, Shapes, settled};
+use super::{Combine, Layer, LayerId, PaintLayers, Shapes, Surface, settled};
 use crate::earth::{EdgeLengths, LEVELS, Projection};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
@@ -36,7 +36,7 @@ impl SizeFieldSpec {
     pub(crate) fn asks_as(&self, other: &Self) -> bool {
         let Self { layers, transfer, unasked, outline, gradation, projection } = self;
         let without_surfaces = |layers: &[Layer]| -> Vec<Layer> {
-            let others = layers.iter().filter(|layer| !matches!(layer.kind, LayerKind::Surface(_)));
+            let others = layers.iter().filter(|layer| !layer.kind.is::<Surface>());
             others.cloned().collect()
         };
         without_surfaces(layers) == without_surfaces(&other.layers)
@@ -94,11 +94,11 @@ impl SizeField {
     }
 
     fn with_lengths(spec: SizeFieldSpec, lattice: &Lattice, edge_lengths: EdgeLengths) -> Self {
-        let SizeFieldSpec { transfer, outline, .. } = &spec;
-        let plane =
-            CompiledPlane { transfer, lattice, outline: outline.as_ref(), edge_lengths: &edge_lengths };
-        let visible = spec.layers.iter().filter(|layer| layer.visible);
-        let layers: Vec<_> = visible.map(|layer| CompiledLayer::new(layer, &spec.layers, &plane)).collect();
+        let SizeFieldSpec { layers: stack, transfer, outline, .. } = &spec;
+        let outline = outline.as_ref();
+        let plane = CompiledPlane { stack, transfer, lattice, outline, edge_lengths: &edge_lengths };
+        let visible = stack.iter().filter(|layer| layer.visible);
+        let layers: Vec<_> = visible.map(|layer| CompiledLayer::new(layer, &plane)).collect();
         let has_pixels_only = has_pixels_only(&layers, &spec);
         let square_bits = Box::new(settled::square_bits(lattice));
         let mut field = Self { lattice: *lattice, edge_lengths, square_bits, layers, has_pixels_only, spec };

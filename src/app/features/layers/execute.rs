@@ -10,7 +10,7 @@ use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
 use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayer};
 
 impl Feature for LayerEditor {
     type Command = LayerCommand;
@@ -86,7 +86,7 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     let edits_a_kind = kinds_of_layers(ctx.rows).iter().any(|kind| kind.tool == Some(chosen));
     match kind_of(ctx.rows, kind).tool {
         Some(tool) if chosen.brush.is_some() => ctx.tools.select(tool),
-        None if edits_a_kind && matches!(kind, LayerKind::Paint(_)) => ctx.tools.select_brush(),
+        None if edits_a_kind && kind.is::<PaintLayer>() => ctx.tools.select_brush(),
         _ => {}
     }
 }
@@ -108,7 +108,7 @@ fn add_band(ctx: &mut Ctx<'_>) {
     let document = ctx.session.document();
     let Settings { layers, transfer, .. } = document.settings();
     let all = document.active_layer().into_iter().chain(layers.iter().rev());
-    let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
+    let Some(source) = all.map(|layer| &layer.kind).find_map(|kind| kind.raster_source()) else {
         return ctx.send(Command::File(FileCommand::Ask(&OPEN_BAND)));
     };
     match LayerKind::band_of(source.clone(), transfer) {
@@ -169,7 +169,7 @@ fn edit_layer(layers: &mut [Layer], id: LayerId, edit: impl FnOnce(&mut Layer)) 
 
 /// Changes what the distance of a layer is measured to. Other kinds of layers stay as they are.
 fn measure_to(layer: &mut Layer, target: DistanceTo) {
-    if let LayerKind::Distance { to, .. } = &mut layer.kind {
+    if let Some(DistanceLayer { to, .. }) = layer.kind.get_mut() {
         *to = target;
     }
 }

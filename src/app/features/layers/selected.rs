@@ -7,7 +7,7 @@ use super::{LayerCommand, OPEN_MASK};
 use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, remark};
 use crate::app::widgets::{ActionButton, Section, ValueRow, segmented};
-use meshbrush_core::layers::{Combine, Layer, LayerKind};
+use meshbrush_core::layers::{Combine, Layer, Surface};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.push_id(layer.id.0, |ui| {
             ui.add_enabled_ui(!layer.locked, |ui| {
                 // A surface has no diameters to combine.
-                if !matches!(layer.kind, LayerKind::Surface(_)) && !layer.is_of_errors() {
+                if !layer.kind.is::<Surface>() && !layer.is_of_errors() {
                     combine_rows(ui, layer, commands);
                 }
                 (kind_of(state.rows, &layer.kind).parameters)(ui, state, layer, commands);

@@ -25,5 +25,8 @@ mod steepness;
 mod validity;
 mod values;
 
+pub use analytic::{Analytic, Function, Profile};
 pub use compiled::{CompiledLayer, CompiledPlane};
 pub use parts::KnownParts;
+pub use reading::{NO_RISK, Reading};
+pub use values::Values;
