@@ -61,3 +61,27 @@ fn coarse_triangles(lattice: &Lattice) -> impl Iterator<Item = [LatticePoint; 3]
         [[low, at(x + 1, y), high], [low, high, at(x, y + 1)]]
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::Formula;
+    use crate::geometry::Rect;
+    use crate::layers::{FormulaLayer, LayerKind, Quantity, SizeFieldSpec};
+
+    #[test]
+    fn layers_of_errors_are_not_said_to_change_nothing() {
+        let formula = Formula::parse("9 + x").unwrap();
+        let errors = FormulaLayer { quantity: Quantity::Error, formula: formula.clone() };
+        let spec = SizeFieldSpec {
+            layers: Layer::stack([errors.into(), LayerKind::target(formula)]),
+            transfer: Transfer::between(0.01, 1.0),
+            unasked: 1.0,
+            outline: None,
+            gradation: None,
+            projection: None,
+        };
+        let field = SizeField::new(spec, &Lattice::covering(Rect::UNIT, 0.25, 1000).unwrap());
+        assert_eq!(field.idle_layers(PaintLayers::blank()), [LayerId(1)]);
+    }
+}

@@ -66,7 +66,7 @@ pub trait LayerSource: Any + Debug + Send + Sync {
 
     /// Returns whether it is for diameters; without them, it is of use for something else.
     fn asks_for_diameters(&self) -> bool {
-        true
+        self.quantity() != Quantity::Error
     }
 
     /// Returns whether its values are diameters as somebody gave them: one that equals the limit is meant so.
