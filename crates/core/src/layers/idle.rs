@@ -30,7 +30,7 @@ impl SizeField {
         let candidates: Vec<LayerId> =
             self.spec().layers.iter().filter(is_asked).map(|layer| layer.id).collect();
         let layers =
-            self.compiled().iter().filter(|layer| layer.is_plain() && candidates.contains(&layer.id));
+            self.stack.layers().iter().filter(|layer| layer.is_plain() && candidates.contains(&layer.id));
         // A diameter may say the limit itself, and what no mesh can meet is an error.
         let says_limit = |layer: &CompiledLayer| {
             let diameter = layer.diameter_at(paint, place);

@@ -2,6 +2,7 @@
 
 mod areas;
 mod check;
+mod compile;
 mod courant;
 mod curve;
 mod depth;
@@ -23,6 +24,7 @@ mod near_segments;
 mod node_depths;
 mod paint_layers;
 mod paint_reach;
+mod raster_source;
 mod reach;
 mod risk;
 mod risk_model;
@@ -38,6 +40,7 @@ mod straits;
 mod surface;
 mod targets;
 mod targets_in_order;
+mod terms;
 mod threat_models;
 mod threat_series;
 mod threats;
@@ -52,17 +55,19 @@ pub use depth_surface::DepthSurface;
 use depth_surface::{hidden_differently, hiding, surface_changes};
 pub(crate) use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};
+pub use engine::DiameterLimit;
 pub use feature_size::{FeatureSize, WaterMiddle};
 pub use kinds::{
     BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerKind, LayerSource, PaintLayer, RasterLayer,
-    RasterReading, RasterSource,
+    RasterReading,
 };
-pub use layer::{Combine, Layer, LayerId, Quantity};
+pub use layer::Layer;
 pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
 pub(crate) use models::ModelPlace;
 pub use node_depths::{DepthFit, NoDepth, NodeDepths};
 pub use paint_layers::PaintLayers;
+pub use raster_source::RasterSource;
 pub use risk::RiskField;
 pub use settled::{SettledPool, SettledSquares};
 pub use size_field::{SizeField, SizeFieldSpec};
@@ -70,6 +75,7 @@ pub use strait_count::StraitCount;
 pub(crate) use strait_search::StraitSearch;
 pub use straits::{StraitDisc, StraitDiscs, Straits};
 pub use surface::{Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource};
-pub use targets::{Decision, DiameterLimit};
+pub use targets::Decision;
 pub use targets_in_order::NODES_AT_A_TIME;
+pub use terms::{Combine, LayerId, Quantity};
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};

@@ -7,7 +7,7 @@ use glam::DVec2;
 use crate::earth::EdgeLengths;
 use crate::field::Transfer;
 use crate::geometry::{Lattice, Octagon};
-use crate::layers::{Combine, Layer, LayerId, Mask, PaintLayers, Quantity, Shapes, hiding};
+use crate::layers::{Combine, DepthSizes, LayerId, Mask, PaintLayers, Quantity, Shapes};
 use crate::raster::{ValueRange, ValueRanges};
 
 use super::analytic::{Analytic, Function};
@@ -47,8 +47,9 @@ pub struct Carried {
 /// What the layers of a field are compiled for.
 #[derive(Clone, Copy)]
 pub struct CompiledPlane<'a> {
-    /// All layers, from the bottom to the top.
-    pub stack: &'a [Layer],
+    /// The files of depths, from the top to the bottom, with the meaning of their values, if a layer asks for
+    /// the depth.
+    pub depths: &'a [(Cover, DepthSizes)],
     pub transfer: &'a Transfer,
     pub lattice: &'a Lattice,
     /// Without one, no point is near to it.
@@ -77,17 +78,14 @@ impl CompiledPlane<'_> {
 }
 
 impl CompiledLayer {
-    /// Compiles a layer of the stack.
-    pub fn new(layer: &Layer, plane: &CompiledPlane) -> Self {
-        let (reading, values) = match layer.is_of_errors() {
-            true => (plane.diameters(), Values::Nothing),
-            false => layer.kind.compile(layer, plane),
-        };
-        let (id, combine, mask) = (layer.id, layer.combine, layer.mask.clone());
-        let covers = hiding(plane.stack, layer)
-            .map(|(above, depths)| Cover::new(&depths.source().raster, above.mask.as_ref(), plane.lattice))
-            .collect();
-        Self { id, combine, mask, covers, reading, values, graded: None, carried: None }
+    /// Returns a layer that counts everywhere, combined with those below in some way.
+    pub fn new((id, combine): (LayerId, Combine), (reading, values): (Reading, Values)) -> Self {
+        Self { id, combine, mask: None, covers: Vec::new(), reading, values, graded: None, carried: None }
+    }
+
+    /// Lets the layer count in the area of a mask only, and nowhere below some depths.
+    pub fn within(self, mask: Option<Mask>, covers: Vec<Cover>) -> Self {
+        Self { mask, covers, ..self }
     }
 
     /// Finds in closed form what gradation carries, where that is possible: at least h_min, up to `most`. The

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::field::{Bounds, Formula};
 use crate::geometry::Lattice;
-use crate::layers::{DepthSizes, DepthSurface, Depths, Layer, Quantity};
+use crate::layers::{DepthSizes, Quantity};
 use crate::raster::ValueRange;
 
 use super::analytic::{Analytic, Function};
@@ -34,16 +34,12 @@ struct CellDepths {
 }
 
 impl DepthFormula {
-    pub fn new(formula: &Formula, quantity: Quantity, stack: &[Layer], lattice: &Lattice) -> Self {
-        let files = DepthSurface::of(stack).map_or_else(Vec::new, |surface| surface.0);
-        let file = |(layer, depths): (&Layer, &Depths)| {
-            let cover = Cover::new(&depths.source().raster, layer.mask.as_ref(), lattice);
-            (cover, *depths.sizes())
-        };
+    /// `files` are from the top of the stack to its bottom.
+    pub fn new(formula: &Formula, quantity: Quantity, files: &[(Cover, DepthSizes)]) -> Self {
         Self {
             formula: formula.clone(),
             values: Analytic::new(Function::Formula(formula.clone()), quantity),
-            files: files.into_iter().map(file).collect(),
+            files: files.to_vec(),
         }
     }
 

@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::field::Formula;
 use crate::geometry::Lattice;
-use crate::layers::{FormulaLayer, Quantity, Shapes};
+use crate::layers::{Quantity, Shapes};
 use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
 
 use super::analytic::{Analytic, Function, Profile};
@@ -64,14 +65,11 @@ impl Values {
         Self::Analytic(Analytic::new(function, Quantity::Diameter))
     }
 
-    /// Returns the values of a formula in a stack of layers.
-    pub fn of_formula(layer: &FormulaLayer, plane: &CompiledPlane) -> Self {
-        let FormulaLayer { quantity, formula } = layer;
-        let analytic = Analytic::new(Function::Formula(formula.clone()), *quantity);
+    /// Returns the values of a formula.
+    pub fn of_formula(formula: &Formula, quantity: Quantity, plane: &CompiledPlane) -> Self {
+        let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
         match formula.constant() {
-            _ if formula.uses_depth() => {
-                Self::Depth(DepthFormula::new(formula, *quantity, plane.stack, plane.lattice))
-            }
+            _ if formula.uses_depth() => Self::Depth(DepthFormula::new(formula, quantity, plane.depths)),
             Some(_) => Self::Constant(analytic),
             None => Self::Analytic(analytic),
         }

@@ -1,5 +1,6 @@
 //! Bands of the values of a raster.
 
+use super::raster::pixels_of;
 use super::{LayerSource, RasterSource};
 use crate::layers::Layer;
 use crate::layers::difference::{LayerEdit, ValueChange, direction};
@@ -39,7 +40,7 @@ impl LayerSource for BandLayer {
     }
 
     fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
-        self.source.extent()
+        pixels_of(&self.source)
     }
 
     fn change_since(&self, old: &dyn LayerSource, _: &LayerEdit) -> ValueChange {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::raster::pixels_of;
 use super::{LayerSource, RasterSource};
 use crate::domain::{BoundaryMarks, Domain};
 use crate::layers::engine::{CompiledPlane, Reading, Values};
@@ -45,6 +46,6 @@ impl LayerSource for Depths {
     }
 
     fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
-        if self.asks_for_diameters() { self.source().extent() } else { Extent::NOTHING }
+        if self.asks_for_diameters() { pixels_of(self.source()) } else { Extent::NOTHING }
     }
 }

@@ -30,7 +30,7 @@ impl LayerSource for FormulaLayer {
     }
 
     fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
-        (plane.reading(self.quantity, NO_RISK), Values::of_formula(self, plane))
+        (plane.reading(self.quantity, NO_RISK), Values::of_formula(&self.formula, self.quantity, plane))
     }
 
     fn quantity(&self) -> Quantity {

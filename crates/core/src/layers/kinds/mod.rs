@@ -19,7 +19,7 @@ pub use band::BandLayer;
 pub use distance::{DistanceLayer, DistanceTo};
 pub use formula::FormulaLayer;
 pub use paint::PaintLayer;
-pub use raster::{RasterLayer, RasterReading, RasterSource};
+pub use raster::{RasterLayer, RasterReading};
 pub(super) use threats::areas_that_differ;
 
 use std::any::Any;
@@ -32,7 +32,7 @@ use super::difference::{LayerEdit, ValueChange};
 use super::engine::{CompiledPlane, Reading, Values};
 use super::extent::{Extent, ExtentContext};
 use super::risk::RiskSource;
-use super::{Depths, FeatureSize, Layer, Quantity, Straits, Surface, Threats};
+use super::{Depths, FeatureSize, Layer, Quantity, RasterSource, Straits, Surface, Threats};
 use crate::domain::{BoundaryMarks, Domain};
 use crate::field::Formula;
 use crate::mesh::TargetChange;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{LayerSource, RiskSource};
+use super::{LayerSource, RasterSource, RiskSource};
 use crate::layers::engine::{CompiledPlane, NO_RISK, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
 use crate::layers::{Layer, Quantity, ValueCurve};
-use crate::raster::{Raster, RasterPyramid, RasterValues, TiledRaster};
+use crate::raster::{RasterValues, TiledRaster};
 
 /// A raster.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,41 +17,6 @@ pub struct RasterLayer {
     pub source: RasterSource,
     /// The meaning of the raster's values.
     pub reading: RasterReading,
-}
-
-/// A raster, and where it comes from. Clones share the pixels.
-#[derive(Clone, Debug)]
-pub struct RasterSource {
-    /// The name of the file, for a person.
-    pub name: String,
-    /// The values, at their place.
-    pub raster: Arc<RasterPyramid>,
-}
-
-impl PartialEq for RasterSource {
-    /// Rasters that share their memory are not compared pixel by pixel. Pixels without a value are equal.
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
-            && (Arc::ptr_eq(&self.raster, &other.raster)
-                || have_equal_pixels(self.raster.raster(), other.raster.raster()))
-    }
-}
-
-fn have_equal_pixels(a: &Raster, b: &Raster) -> bool {
-    let is_equal = |(a, b): (&f32, &f32)| a == b || (a.is_nan() && b.is_nan());
-    a.bounds() == b.bounds() && a.size() == b.size() && a.values().iter().zip(b.values()).all(is_equal)
-}
-
-impl RasterSource {
-    /// Returns the address of the pixels, and their memory in bytes.
-    pub(in crate::layers) fn shared_data(&self) -> (usize, usize) {
-        (Arc::as_ptr(&self.raster).addr(), self.raster.bytes())
-    }
-
-    /// Returns where there are pixels.
-    pub(super) fn extent(&self) -> Extent {
-        Extent::of([self.raster.raster().bounds()])
-    }
 }
 
 /// The meaning of the values of a raster.
@@ -133,6 +98,11 @@ impl LayerSource for RasterLayer {
     }
 
     fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
-        self.source.extent()
+        pixels_of(&self.source)
     }
+}
+
+/// Returns where a raster has pixels.
+pub(super) fn pixels_of(source: &RasterSource) -> Extent {
+    Extent::of([source.raster.raster().bounds()])
 }
