@@ -7,8 +7,8 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource,
-    ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    BandLayer, Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity,
+    RasterLayer, RasterReading, RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::raster::{PixelGrid, PixelRect, Raster, RasterPyramid, TILE, TilePlace, TiledRaster};
 use meshbrush_mesh::geometry::Rect;
@@ -38,7 +38,7 @@ pub fn painted(level: u8, rows: u32) -> Document {
         domain: Domain::rectangle(Rect::UNIT),
         spacing: SPACING,
         transfer: Transfer::between(1e-9, 1.0),
-        layers: Layer::stack([LayerKind::Paint(Quantity::Diameter)]),
+        layers: Layer::stack([LayerKind::paint(Quantity::Diameter)]),
         gradation: None,
         max_memory: MEMORY,
         max_triangles: TRIANGLES,
@@ -126,13 +126,16 @@ fn layers(fine: f64) -> Vec<Layer> {
     let to = DistanceTo::Shapes { name: "road".into(), shapes };
     let mut layers = Layer::stack([
         wave(0.45, fine),
-        LayerKind::Raster { source: source.clone(), reading: RasterReading::Curve(Arc::new(curve)) },
-        LayerKind::Band { source, between: [0.9, 0.95], diameter: 0.02 },
-        LayerKind::Distance { to, at_zero: 0.005, slope: 0.3, range: 0.2 },
+        LayerKind::Raster(RasterLayer {
+            source: source.clone(),
+            reading: RasterReading::Curve(Arc::new(curve)),
+        }),
+        LayerKind::Band(BandLayer { source, between: [0.9, 0.95], diameter: 0.02 }),
+        LayerKind::Distance(DistanceLayer { to, at_zero: 0.005, slope: 0.3, range: 0.2 }),
         LayerKind::Threats(threats()),
         LayerKind::constant(0.01),
-        LayerKind::Paint(Quantity::Diameter),
-        LayerKind::Paint(Quantity::Risk),
+        LayerKind::paint(Quantity::Diameter),
+        LayerKind::paint(Quantity::Risk),
     ]);
     let corners = [dvec2(0.7, 0.1), dvec2(0.9, 0.12), dvec2(0.85, 0.3), dvec2(0.72, 0.25)];
     layers[5].mask = Some(Mask::new(&[vec![corners.to_vec()]]).expect("a polygon"));

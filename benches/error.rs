@@ -50,7 +50,7 @@ fn heights() -> Raster {
 
 fn surface(source: &RasterSource, goal: SurfaceGoal) -> LayerKind {
     let source = SurfaceSource::Raster(source.clone());
-    LayerKind::Surface(Surface { source, goal, norm: SurfaceNorm::Largest })
+    Surface { source, goal, norm: SurfaceNorm::Largest }.into()
 }
 
 fn settings(source: &RasterSource, goal: SurfaceGoal) -> Settings {
@@ -122,7 +122,7 @@ fn slider(settings: Settings, source: &RasterSource, error: f64) -> (usize, Vec<
         let moved = if round % 2 == 0 { MOVE * error } else { error };
         let mut layers = document.settings().layers.clone();
         for layer in &mut layers {
-            if matches!(layer.kind, LayerKind::Surface(_)) {
+            if layer.kind.is::<Surface>() {
                 layer.kind = surface(source, SurfaceGoal::Within(moved));
             }
         }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
-    Layer, LayerKind, PaintLayers, RasterReading, RasterSource, SettledSquares, SizeField, SizeFieldSpec,
+    Layer, LayerKind, PaintLayers, RasterLayer, RasterReading, RasterSource, SettledSquares, SizeField,
+    SizeFieldSpec,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{LatticePoint, Rect};
@@ -36,7 +37,7 @@ fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
     let raster = Raster::from_values(bounds, [SIDE; 2], values);
     let source = RasterSource { name: "diamond".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let spec = SizeFieldSpec {
-        layers: Layer::stack([LayerKind::Raster { source, reading: RasterReading::Diameter }]),
+        layers: Layer::stack([RasterLayer { source, reading: RasterReading::Diameter }]),
         transfer: Transfer::between(1e-6, 20.0),
         unasked: 20.0,
         outline: None,

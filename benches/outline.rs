@@ -42,7 +42,7 @@ impl Scene {
     ) -> Self {
         let domain = Domain::of_polygons(polygons).expect("rings");
         let boundary = BoundaryTreatment::OnOutline { diameter };
-        let layers = Layer::stack([base, LayerKind::Paint(Quantity::Diameter)]);
+        let layers = Layer::stack([base, LayerKind::paint(Quantity::Diameter)]);
         let mut settings = Settings { domain, boundary, layers, ..Settings::default() };
         (settings.transfer.h_min, settings.transfer.h_risk) = (0.2 * diameter, 0.2 * diameter);
         Self { name, document: Document::new(settings, None).expect("valid settings"), radius, diameter }

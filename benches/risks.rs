@@ -7,7 +7,8 @@ use std::time::Duration;
 use glam::{DVec2, dvec2};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    Layer, LayerKind, PaintLayers, RasterReading, RasterSource, RiskField, Threat, ThreatLaw, Threats,
+    Layer, LayerKind, PaintLayers, RasterLayer, RasterReading, RasterSource, RiskField, Threat, ThreatLaw,
+    Threats,
 };
 use meshbrush_core::path::{WeightedCost, Weights};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -87,7 +88,7 @@ fn pixels(risk: impl Fn(DVec2) -> f64) -> LayerKind {
     let values = (0..SIDE * SIDE).map(|n| risk(at(n)).clamp(0.0, 1.0) as f32).collect();
     let raster = Raster::from_values(Rect::UNIT, [SIDE; 2], values);
     let source = RasterSource { name: "risk".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-    LayerKind::Raster { source, reading: RasterReading::Risk }
+    RasterLayer { source, reading: RasterReading::Risk }.into()
 }
 
 fn threats(random: &mut fastrand::Rng) -> LayerKind {
@@ -98,7 +99,7 @@ fn threats(random: &mut fastrand::Rng) -> LayerKind {
         law: ThreatLaw::ALL[random.usize(..3)].0,
     };
     let threats = (0..random.usize(4..12)).map(|_| threat(random)).collect();
-    LayerKind::Threats(Threats::new(threats).expect("valid threats"))
+    Threats::new(threats).expect("valid threats").into()
 }
 
 /// Returns a mesh of the unit square with about 100 thousand nodes, or 6.6 thousand for `level` 4.

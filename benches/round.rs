@@ -18,9 +18,9 @@ use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, corners};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerKind, Mask, PositiveDepth,
-    Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw,
-    Threats, ValueCurve, WaterMiddle,
+    BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
+    Layer, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, ShapeList,
+    Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -108,7 +108,7 @@ fn formula(sliders: &mut Sliders, is_long: bool) -> LayerKind {
         false => text.clone(),
         true => format!("min({text}, {a} + {b}*hypot(x - {y}, y - {x}), {c} + {a}*abs(x - y), 7 + x*y)"),
     };
-    LayerKind::Formula { quantity: sliders.quantity(), formula: Formula::parse(&text).expect("a formula") }
+    FormulaLayer { quantity: sliders.quantity(), formula: Formula::parse(&text).expect("a formula") }.into()
 }
 
 fn source(sliders: &mut Sliders, scale: f64) -> RasterSource {
@@ -119,11 +119,13 @@ fn source(sliders: &mut Sliders, scale: f64) -> RasterSource {
 }
 
 fn kind_of(name: &str, sliders: &mut Sliders) -> LayerKind {
-    let distance = |to: DistanceTo, sliders: &mut Sliders| LayerKind::Distance {
-        to,
-        at_zero: sliders.round(),
-        slope: sliders.round(),
-        range: if sliders.random.u8(..3) == 0 { sliders.round() } else { f64::INFINITY },
+    let distance = |to: DistanceTo, sliders: &mut Sliders| {
+        LayerKind::Distance(DistanceLayer {
+            to,
+            at_zero: sliders.round(),
+            slope: sliders.round(),
+            range: if sliders.random.u8(..3) == 0 { sliders.round() } else { f64::INFINITY },
+        })
     };
     match name {
         "outline" => distance(DistanceTo::Outline, sliders),
@@ -139,18 +141,18 @@ fn kind_of(name: &str, sliders: &mut Sliders) -> LayerKind {
         "long formula" => formula(sliders, true),
         "raster" => {
             let of = [RasterReading::Risk, RasterReading::Diameter][sliders.random.usize(..2)].clone();
-            LayerKind::Raster { source: source(sliders, 1.0), reading: of }
+            RasterLayer { source: source(sliders, 1.0), reading: of }.into()
         }
         "curve" => {
             let (a, b) = (sliders.round(), sliders.round());
             let curve = ValueCurve::new(vec![[0.0, a], [1.0, b]]).expect("a curve");
             let source = source(sliders, 1.0);
-            LayerKind::Raster { source, reading: RasterReading::Curve(Arc::new(curve)) }
+            RasterLayer { source, reading: RasterReading::Curve(Arc::new(curve)) }.into()
         }
         "band" => {
             let (a, b) = (sliders.round(), sliders.round());
             let source = source(sliders, 1.0);
-            LayerKind::Band { source, between: [a.min(b), a.max(b)], diameter: sliders.round() }
+            BandLayer { source, between: [a.min(b), a.max(b)], diameter: sliders.round() }.into()
         }
         "threats" => {
             let mut threat = || Threat {
@@ -169,15 +171,15 @@ fn kind_of(name: &str, sliders: &mut Sliders) -> LayerKind {
             let rule = DepthRule::Wavelength { period: 0.5 * sliders.round(), triangles: 5.0 };
             let positive = PositiveDepth::Down;
             let sizes = DepthSizes { positive, offset: 0.0, between: DepthSizes::ALL_WATER, rule };
-            LayerKind::Depth(Depths::new(source, sizes))
+            Depths::new(source, sizes).into()
         }
         "straits" => {
             let across = (4.0 * sliders.factor).max(1.0);
-            LayerKind::Straits(Straits { across, found: StraitDiscs::unknown([0.05, 0.5]) })
+            Straits { across, found: StraitDiscs::unknown([0.05, 0.5]) }.into()
         }
         _ => {
             let across = (2.0 * sliders.factor).max(1.0);
-            LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown([0.05, 1.0]) })
+            FeatureSize { across, found: WaterMiddle::unknown([0.05, 1.0]) }.into()
         }
     }
 }
@@ -211,12 +213,8 @@ fn settings(name: &str, seed: u64, factor: f64) -> Settings {
         let mask = [None, None, None, Some(diamond), Some(square)][sliders.random.usize(..5)].clone();
         layer.mask = mask.map(|ring| Mask::new(&[vec![ring]]).expect("a mask"));
         layer.kind = match &layer.kind {
-            LayerKind::Straits(straits) => {
-                LayerKind::Straits(straits.for_domain(&domain, &BoundaryMarks::default()))
-            }
-            LayerKind::FeatureSize(size) => {
-                LayerKind::FeatureSize(size.for_domain(&domain, &BoundaryMarks::default()))
-            }
+            LayerKind::Straits(straits) => straits.for_domain(&domain, &BoundaryMarks::default()).into(),
+            LayerKind::FeatureSize(size) => size.for_domain(&domain, &BoundaryMarks::default()).into(),
             other => other.clone(),
         };
     }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use meshbrush_core::document::{Document, Follower, Price, Pricer, Setting, Stage};
-use meshbrush_core::layers::{Layer, LayerId, LayerKind};
+use meshbrush_core::layers::{Layer, LayerId, Threats};
 use meshbrush_core::paint::{Brush, StrokePlan};
 use meshbrush_mesh::mesh::Progress;
 
@@ -152,7 +152,7 @@ pub fn paint_dab(document: &mut Document, brush: Brush, at: DVec2) {
 /// Moves the first threat of [`crate::documents::layered`] by a share of its way; the gesture goes on.
 pub fn move_threat(document: &mut Document, share: f64) {
     change_layer(document, THREATS, |layer| {
-        if let LayerKind::Threats(threats) = &mut layer.kind {
+        if let Some(threats) = layer.kind.get_mut::<Threats>() {
             threats.set(0, moved_threat(share)).expect("a valid threat");
         }
     });

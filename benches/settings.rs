@@ -13,7 +13,9 @@ use std::time::{Duration, Instant};
 
 use meshbrush_benches::window::{FRAME_BUDGET, Slices};
 use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
-use meshbrush_core::layers::{DepthRule, DepthSizes, Layer, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::layers::{
+    DepthRule, DepthSizes, Depths, Layer, LayerKind, RasterLayer, RasterReading, RasterSource,
+};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::{Meter, recipe};
 use meshbrush_mesh::geometry::Rect;
@@ -36,7 +38,7 @@ fn document(h_min: f64) -> Document {
     };
     let raster = Raster::from_values(Rect::UNIT, [SIDE; 2], (0..SIDE * SIDE).map(risk).collect());
     let source = RasterSource { name: "risk".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-    settings.layers = Layer::usual(LayerKind::Raster { source, reading: RasterReading::Risk });
+    settings.layers = Layer::usual(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }));
     Document::new(settings, None).expect("valid settings")
 }
 
@@ -69,7 +71,7 @@ fn sea() -> Document {
 /// Returns a layer with another rule for its depths, if it has depths.
 fn with_rule(layer: &Layer, change: impl Fn(DepthRule) -> DepthRule) -> Layer {
     let mut layer = layer.clone();
-    if let LayerKind::Depth(depths) = &layer.kind {
+    if let Some(depths) = layer.kind.get::<Depths>() {
         let sizes = DepthSizes { rule: change(depths.sizes().rule), ..*depths.sizes() };
         layer.kind = LayerKind::Depth(depths.with_sizes(sizes));
     }

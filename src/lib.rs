@@ -63,12 +63,13 @@ pub use meshbrush_core::document::{
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{
-    Combine, Coverage, CurveError, Decision, DepthError, DepthFit, DepthRule, DepthSizes, Depths,
-    DiameterLimit, DistanceTo, FeatureSize, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget,
-    Mask, NoDepth, NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading,
-    RasterSource, RiskField, SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec,
-    StraitCount, StraitDisc, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm,
-    SurfaceSource, Threat, ThreatError, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    BandLayer, Combine, Coverage, CurveError, Decision, DepthError, DepthFit, DepthRule, DepthSizes, Depths,
+    DiameterLimit, DistanceLayer, DistanceTo, FeatureSize, FineAt, FormulaLayer, InvalidLayer, Layer,
+    LayerId, LayerKind, LeastTarget, Mask, NoDepth, NodeDepths, PaintChange, PaintLayer, PaintLayers,
+    PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, RiskField, SettledSquares, ShapeList,
+    Shapes, ShapesError, SizeField, SizeFieldSpec, StraitCount, StraitDisc, StraitDiscs, Straits, Surface,
+    SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource, Threat, ThreatError, ThreatLaw, Threats,
+    ValueCurve, WaterMiddle,
 };
 #[doc(inline)]
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};

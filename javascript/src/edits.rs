@@ -2,7 +2,9 @@
 
 use js_sys::Array;
 use meshbrush_core::document::{Document, Setting};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{
+    DistanceLayer, DistanceTo, FeatureSize, Layer, LayerKind, Straits, Surface, Threats,
+};
 use wasm_bindgen::prelude::*;
 
 use crate::document::Core;
@@ -158,12 +160,12 @@ fn row_of(layer: &Layer) -> JsValue {
 fn word_of(kind: &LayerKind) -> &'static str {
     match kind {
         LayerKind::Paint(_) => "paint",
-        LayerKind::Formula { .. } => "formula",
-        LayerKind::Raster { .. } => "raster",
+        LayerKind::Formula(_) => "formula",
+        LayerKind::Raster(_) => "raster",
         LayerKind::Threats(_) => "threats",
-        LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. } => "corridor",
-        LayerKind::Distance { .. } => "distance",
-        LayerKind::Band { .. } => "band",
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Corridor { .. }, .. }) => "corridor",
+        LayerKind::Distance(_) => "distance",
+        LayerKind::Band(_) => "band",
         LayerKind::Depth(_) => "depth",
         LayerKind::Straits(_) => "straits",
         LayerKind::FeatureSize(_) => "featureSize",

@@ -7,9 +7,10 @@ use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryType, PieceChoice};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerId, LayerKind, Mask,
-    PositiveDepth, Quantity, RasterReading, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm,
-    SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
+    Layer, LayerId, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, Shapes,
+    StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats,
+    ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::RasterValues;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
@@ -67,7 +68,7 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
             let quantity = table.word("quantity", &QUANTITIES)?.unwrap_or(Quantity::Diameter);
             let parse = if quantity == Quantity::Diameter { Formula::parse_of_size } else { Formula::parse };
             let text = table.needed("formula", table.text("formula")?)?;
-            LayerKind::Formula { quantity, formula: compiled("formula", &text, parse)? }
+            LayerKind::Formula(FormulaLayer { quantity, formula: compiled("formula", &text, parse)? })
         }
         "raster" => {
             let reading = match (table.word("as", &QUANTITIES)?, table.numbers("curve")) {
@@ -85,7 +86,7 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
                     ));
                 }
             };
-            LayerKind::Raster { source: source_of(table, domain, (&reading).into())?, reading }
+            LayerKind::Raster(RasterLayer { source: source_of(table, domain, (&reading).into())?, reading })
         }
         "band" => {
             let between @ [least, greatest] = table.needed("between", table.several("between")?)?;
@@ -93,7 +94,11 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
                 return Err(error("between: write two finite numbers, the least value first."));
             }
             let diameter = table.needed("diameter", table.length("diameter")?)?;
-            LayerKind::Band { source: source_of(table, domain, RasterValues::Any)?, between, diameter }
+            LayerKind::Band(BandLayer {
+                source: source_of(table, domain, RasterValues::Any)?,
+                between,
+                diameter,
+            })
         }
         "depth" => {
             LayerKind::Depth(Depths::new(source_of(table, domain, RasterValues::Any)?, depth_sizes(table)?))
@@ -113,7 +118,7 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
             let (across, between) = across_widths(table)?;
             LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown(between) })
         }
-        _ => LayerKind::Paint(table.word("quantity", &QUANTITIES)?.unwrap_or(Quantity::Diameter)),
+        _ => LayerKind::paint(table.word("quantity", &QUANTITIES)?.unwrap_or(Quantity::Diameter)),
     })
 }
 
@@ -191,7 +196,12 @@ fn grown(table: Table<'_>, to: DistanceTo) -> Result<LayerKind, JsError> {
     let at_zero = table.needed("atZero", table.length("atZero")?)?;
     let rule = "the growth by unit of distance must be 0 or more, and finite";
     let slope = table.needed("slope", table.number_where("slope", |slope| slope >= 0.0, rule)?)?;
-    Ok(LayerKind::Distance { to, at_zero, slope, range: table.length("range")?.unwrap_or(f64::INFINITY) })
+    Ok(LayerKind::Distance(DistanceLayer {
+        to,
+        at_zero,
+        slope,
+        range: table.length("range")?.unwrap_or(f64::INFINITY),
+    }))
 }
 
 /// Returns the number of triangles across water, and the least and the greatest width of it.

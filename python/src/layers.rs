@@ -1,7 +1,7 @@
 //! The layers of a document, and strokes on them.
 
 use meshbrush_core::document::Setting;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind};
+use meshbrush_core::layers::{Depths, Layer, LayerId};
 use meshbrush_core::paint::{Brush, Medium, Mirror};
 use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
 use meshbrush_io::io::recipe::{BesideLayer, LoadedLayer, Loading};
@@ -147,7 +147,7 @@ impl Document {
 
 fn beside_layer(state: &State) -> BesideLayer {
     let layers = &state.document.settings().layers;
-    let depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+    let depths = layers.iter().any(|layer| layer.kind.is::<Depths>());
     BesideLayer { smallest: state.has_smallest, depths, unit: state.document.settings().unit }
 }
 

@@ -40,10 +40,10 @@ impl Session {
     }
 
     /// Changes what a layer asks for. Further changes join the gesture.
-    pub fn set_layer_kind(&mut self, id: LayerId, kind: LayerKind) {
+    pub fn set_layer_kind(&mut self, id: LayerId, kind: impl Into<LayerKind>) {
         self.edit_layers(|layers| {
             if let Some(layer) = layers.iter_mut().find(|layer| layer.id == id) {
-                layer.kind = kind;
+                layer.kind = kind.into();
             }
         });
     }

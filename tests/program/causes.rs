@@ -76,7 +76,7 @@ fn threats(random: &mut Rng) -> LayerKind {
         law: ThreatLaw::Radar,
     };
     let list = (0..5).map(|_| threat()).collect();
-    LayerKind::Threats(Threats::new(list).unwrap())
+    Threats::new(list).unwrap().into()
 }
 
 /// Returns whether a point lies in a triangle, by areas.

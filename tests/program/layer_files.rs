@@ -9,9 +9,9 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
-    Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw,
-    Threats, ValueCurve,
+    BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FormulaLayer, Layer,
+    LayerId, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, ShapeList,
+    Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -54,13 +54,13 @@ fn circle(center: DVec2, radius: f64, corners: usize) -> Vec<DVec2> {
 
 fn distance(shapes: ShapeList, range: f64) -> LayerKind {
     let to = DistanceTo::Shapes { name: "cable.geojson".into(), shapes: Shapes::new(shapes, true).unwrap() };
-    LayerKind::Distance { to, at_zero: 0.03, slope: 0.3, range }
+    DistanceLayer { to, at_zero: 0.03, slope: 0.3, range }.into()
 }
 
 fn corridor(line: Vec<DVec2>, range: f64) -> LayerKind {
     let lines = Shapes::new(ShapeList { lines: vec![line], ..ShapeList::default() }, true).unwrap();
     let to = DistanceTo::Corridor { lines, width: 0.1 };
-    LayerKind::Distance { to, at_zero: 0.04, slope: 0.5, range }
+    DistanceLayer { to, at_zero: 0.04, slope: 0.5, range }.into()
 }
 
 /// Returns every kind of layer, with data that a recipe holds itself and data that it needs files for.
@@ -78,36 +78,40 @@ fn kinds() -> Vec<LayerKind> {
         LayerKind::constant(0.4),
         LayerKind::target(Formula::parse("0.1 + 0.2*abs(x - y)").unwrap()),
         LayerKind::risk(Formula::parse("0.3*x").unwrap()),
-        LayerKind::Raster { source: source("risk", &shared), reading: RasterReading::Risk },
-        LayerKind::Raster {
+        LayerKind::Raster(RasterLayer { source: source("risk", &shared), reading: RasterReading::Risk }),
+        LayerKind::Raster(RasterLayer {
             source: source("length.asc", &Arc::new(RasterPyramid::new(diameters))),
             reading: RasterReading::Diameter,
-        },
-        LayerKind::Raster {
+        }),
+        LayerKind::Raster(RasterLayer {
             source: source("depth.asc", &shared),
             reading: RasterReading::Curve(Arc::new(curve)),
-        },
-        LayerKind::Band { source: source("depth.asc", &shared), between: [0.2, 0.21], diameter: 0.04 },
+        }),
+        LayerKind::Band(BandLayer {
+            source: source("depth.asc", &shared),
+            between: [0.2, 0.21],
+            diameter: 0.04,
+        }),
         LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown([0.2, 1.0]) }),
         LayerKind::Threats(threats(random, 3)),
         LayerKind::Threats(threats(random, 40)),
         distance(few, 0.5),
         distance(many, f64::INFINITY),
-        LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.05, slope: 0.5, range: 0.7 },
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Outline, at_zero: 0.05, slope: 0.5, range: 0.7 }),
         corridor(vec![dvec2(0.2, 0.3), dvec2(0.7, 0.4), dvec2(1.3, 1.6)], 0.3),
         corridor(circle(dvec2(1.0, 1.0), 0.6, 30), f64::INFINITY),
-        LayerKind::Paint(Quantity::Risk),
-        LayerKind::Paint(Quantity::Error),
-        LayerKind::Formula {
+        LayerKind::paint(Quantity::Risk),
+        LayerKind::paint(Quantity::Error),
+        LayerKind::Formula(FormulaLayer {
             quantity: Quantity::Error,
             formula: Formula::parse("if(x < 1, 0.1, inf)").unwrap(),
-        },
-        LayerKind::Raster {
+        }),
+        LayerKind::Raster(RasterLayer {
             source: source("error.asc", &Arc::new(RasterPyramid::new(errors))),
             reading: RasterReading::Error,
-        },
-        LayerKind::Paint(Quantity::Diameter),
-        LayerKind::Paint(Quantity::Diameter),
+        }),
+        LayerKind::paint(Quantity::Diameter),
+        LayerKind::paint(Quantity::Diameter),
         LayerKind::Depth(Depths::new(
             source("depth.asc", &shared),
             DepthSizes {
@@ -183,7 +187,9 @@ fn every_kind_of_layer_is_read_as_it_was_saved() {
     assert!(opened.paint == project.paint && !opened.paint.is_blank());
     assert!(project_bytes(&opened) == bytes, "saving again gives the same file");
     let rasters = opened.settings.layers.iter().filter_map(|layer| match &layer.kind {
-        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => Some(&source.raster),
+        LayerKind::Raster(RasterLayer { source, .. }) | LayerKind::Band(BandLayer { source, .. }) => {
+            Some(&source.raster)
+        }
         LayerKind::Depth(depths) => Some(&depths.source().raster),
         _ => None,
     });

@@ -11,9 +11,10 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerId, LayerKind, Mask,
-    PositiveDepth, Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface,
-    SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
+    Layer, LayerId, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource,
+    ShapeList, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat,
+    ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -125,11 +126,11 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
         1 => LayerKind::target(formula("0.1 + 0.2*abs(x - y)")),
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
         3 => LayerKind::Threats(threats(random)),
-        4 => LayerKind::Paint(Quantity::Risk),
-        5 => LayerKind::Paint([Quantity::Diameter, Quantity::Error][random.usize(..2)]),
+        4 => LayerKind::paint(Quantity::Risk),
+        5 => LayerKind::paint([Quantity::Diameter, Quantity::Error][random.usize(..2)]),
         6 => {
             let source = RasterSource { name: "bottom.asc".into(), raster: raster(random, 0.0, 1.0) };
-            LayerKind::Band { source, between: [0.3, 0.4], diameter: at_zero }
+            BandLayer { source, between: [0.3, 0.4], diameter: at_zero }.into()
         }
         n @ 7..=9 => {
             let (low, reading) = match n {
@@ -141,16 +142,16 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
                 }
             };
             let source = RasterSource { name: "grid".into(), raster: raster(random, low, 1.0) };
-            LayerKind::Raster { source, reading }
+            RasterLayer { source, reading }.into()
         }
         10 => {
             let to = DistanceTo::Shapes { name: "lights.geojson".into(), shapes: shapes(random) };
-            LayerKind::Distance { to, at_zero, slope, range }
+            DistanceLayer { to, at_zero, slope, range }.into()
         }
         11 => LayerKind::Depth(depths(random)),
         12 => {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
-            LayerKind::Distance { to, at_zero, slope, range }
+            DistanceLayer { to, at_zero, slope, range }.into()
         }
         13 => LayerKind::Surface(surface(random)),
         14 => {
@@ -160,7 +161,7 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
                 false => LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown(widths) }),
             }
         }
-        _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
+        _ => LayerKind::Distance(DistanceLayer { to: boundary_of(random), at_zero, slope, range }),
     }
 }
 
@@ -264,7 +265,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         Layer { id: LayerId(2 * id + 1), ..layer(random, kind) }
     });
     let mut layers: Vec<Layer> = layers.collect();
-    let has_depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+    let has_depths = layers.iter().any(|layer| layer.kind.is::<Depths>());
     if has_depths && random.bool() {
         let of_depth = Formula::parse_of_size("0.3 + 0.01*abs(depth) + 0.02*x").unwrap();
         layers.push(Layer::new(LayerId(99), "Of the depth", LayerKind::target(of_depth)));
@@ -453,8 +454,10 @@ fn options(settings: &Settings) -> Vec<String> {
     settings.gradation.iter().for_each(|gradation| add("gradation", gradation.to_string()));
     for layer in &settings.layers {
         match &layer.kind {
-            LayerKind::Formula { quantity: Quantity::Risk, formula } => add("risk", formula.source().into()),
-            LayerKind::Formula { formula, .. } => add("target", formula.source().into()),
+            LayerKind::Formula(FormulaLayer { quantity: Quantity::Risk, formula }) => {
+                add("risk", formula.source().into())
+            }
+            LayerKind::Formula(FormulaLayer { formula, .. }) => add("target", formula.source().into()),
             LayerKind::Threats(_) => add("threats", "a-threats.csv".into()),
             other => unreachable!("no option names {other:?}"),
         }

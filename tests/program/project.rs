@@ -14,7 +14,8 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource,
+    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterLayer, RasterReading,
+    RasterSource, Threats,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::path::Weights;
@@ -103,12 +104,12 @@ fn stack(bottom: LayerKind) -> Vec<Layer> {
     let holes = RasterSource { name: "holes.asc".into(), raster: Arc::new(RasterPyramid::new(holes)) };
     let mut layers = Layer::stack([
         bottom,
-        LayerKind::Paint(Quantity::Diameter),
+        LayerKind::paint(Quantity::Diameter),
         raster_layer("gap.asc", gap),
-        LayerKind::Raster { source: holes, reading: RasterReading::Diameter },
+        LayerKind::Raster(RasterLayer { source: holes, reading: RasterReading::Diameter }),
         LayerKind::risk(formula("x * y")),
-        LayerKind::Paint(Quantity::Risk),
-        LayerKind::Paint(Quantity::Risk),
+        LayerKind::paint(Quantity::Risk),
+        LayerKind::paint(Quantity::Risk),
     ]);
     layers[2].combine = Combine::Floor;
     layers[3].combine = Combine::Replace;
@@ -120,7 +121,7 @@ fn stack(bottom: LayerKind) -> Vec<Layer> {
 
 fn raster_layer(name: &str, raster: Raster) -> LayerKind {
     let source = RasterSource { name: name.into(), raster: Arc::new(RasterPyramid::new(raster)) };
-    LayerKind::Raster { source, reading: RasterReading::Risk }
+    RasterLayer { source, reading: RasterReading::Risk }.into()
 }
 
 /// Documents with everything that can be saved.
@@ -589,7 +590,7 @@ fn declared_sizes_take_no_memory() {
 #[test]
 fn paint_of_all_layers_together_is_limited_by_the_size_of_the_file() {
     let mut settings = small().settings;
-    settings.layers = Layer::stack([const { LayerKind::Paint(Quantity::Risk) }; 3]);
+    settings.layers = Layer::stack([const { LayerKind::paint(Quantity::Risk) }; 3]);
     let mut paint = PaintLayers::default();
     for layer in &settings.layers {
         let mut raster = settings.blank_raster(layer.id);

@@ -128,12 +128,20 @@ fn modules(src: &Path) -> Vec<Module> {
             } else if path.extension().is_some_and(|ending| ending == "rs") && stem != "main" {
                 let own = if matches!(stem.as_str(), "mod" | "lib") { module.clone() } else { inner };
                 let file = syn::parse_file(&fs::read_to_string(path).unwrap()).unwrap();
-                found.push(Module { path: own, items: file.items });
+                found.push(Module { path: own, items: file.items.into_iter().map(in_macro).collect() });
             }
         }
     }
     found.sort_by(|a, b| a.path.cmp(&b.path));
     found
+}
+
+/// Returns the item that a macro takes whole, if it does that.
+fn in_macro(item: Item) -> Item {
+    match &item {
+        Item::Macro(call) => syn::parse2(call.mac.tokens.clone()).unwrap_or(item),
+        _ => item,
+    }
 }
 
 /// Everything public in `src/lib.rs` but the module `guide`, which is prose.

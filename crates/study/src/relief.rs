@@ -259,7 +259,7 @@ mod tests {
             rule: DepthRule::Nothing,
             between: DepthSizes::ALL_WATER,
         };
-        Layer::stack([LayerKind::Depth(Depths::new(source, sizes))])
+        Layer::stack([Depths::new(source, sizes)])
     }
 
     fn relief(layers: &[Layer]) -> Relief {

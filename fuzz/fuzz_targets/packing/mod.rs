@@ -9,7 +9,7 @@ use flate2::read::DeflateDecoder;
 use glam::dvec2;
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::layers::{Layer, LayerKind, RasterLayer, RasterReading, RasterSource};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::project::{self, Project};
@@ -48,7 +48,7 @@ pub fn sample() -> Project {
     let source = RasterSource { name: "a.png".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let settings = Settings {
         domain: Domain::of_polygons(&[triangle]).unwrap(),
-        layers: Layer::usual(LayerKind::Raster { source, reading: RasterReading::Risk }),
+        layers: Layer::usual(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk })),
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();

@@ -150,7 +150,7 @@ mod tests {
             rule: DepthRule::Nothing,
             between: DepthSizes::ALL_WATER,
         };
-        let layers = Layer::stack([LayerKind::Depth(Depths::new(source, sizes))]);
+        let layers = Layer::stack([Depths::new(source, sizes)]);
         let view = View::default();
         let session = Session::new(example(Example::ALL[0])).expect("the example has a mesh");
         let palette = OverlayPalette::new(view.ground, view.level_colors(session.document().settings()));

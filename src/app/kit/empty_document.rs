@@ -71,11 +71,12 @@ pub fn raster_frame(session: &Session) -> RasterFrame {
 /// Fails with a sentence when no mesh can be built for them.
 pub fn show_with_layer(
     mut settings: Settings,
-    kind: LayerKind,
+    kind: impl Into<LayerKind>,
     file: &Path,
     notes: &[String],
 ) -> Result<Vec<Command>, String> {
     let id = LayerId(settings.layers.iter().map(|layer| layer.id.0 + 1).max().unwrap_or(0));
+    let kind = kind.into();
     settings.layers.push(Layer::new(id, kind.name(), kind));
     let mut commands = show_over_extent(settings, file, notes)?;
     commands.push(Command::from(LayerCommand::Select(id)));

@@ -35,17 +35,17 @@ pub struct Addition {
 }
 
 /// The command that adds a layer.
-pub fn add_layer(kind: LayerKind) -> Command {
-    Command::from(LayerCommand::Add(Box::new(kind)))
+pub fn add_layer(kind: impl Into<LayerKind>) -> Command {
+    Command::from(LayerCommand::Add(Box::new(kind.into())))
 }
 
 /// Changes what a layer asks for. Further changes join the gesture.
-pub fn set_kind(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
-    commands.push(Command::from(LayerCommand::SetKind(layer.id, Box::new(kind))));
+pub fn set_kind(layer: &Layer, kind: impl Into<LayerKind>, commands: &mut Vec<Command>) {
+    commands.push(Command::from(LayerCommand::SetKind(layer.id, Box::new(kind.into()))));
 }
 
 /// Changes what a layer asks for, as a gesture of its own.
-pub fn set_kind_once(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
+pub fn set_kind_once(layer: &Layer, kind: impl Into<LayerKind>, commands: &mut Vec<Command>) {
     set_kind(layer, kind, commands);
     commands.push(Command::from(EditCommand::EndGesture));
 }

@@ -32,7 +32,7 @@ pub use manual::write as write_manual;
 use meshbrush_core::document::{DrawnShape, Example, Setting};
 use meshbrush_core::domain::CutShape;
 use meshbrush_core::field::{Formula, RefinementRule};
-use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::layers::{Layer, LayerKind, Threats};
 use meshbrush_io::io;
 use meshbrush_render::render::Image;
 use meshbrush_study::report::ReportFigure;
@@ -208,7 +208,7 @@ fn surface(window: &mut OffscreenWindow) {
 fn layers(window: &mut OffscreenWindow) {
     window.send(Command::from(FileCommand::OpenExample(Example::Layers)));
     window.send(Command::from(ViewCommand::SetOverlay(FieldOverlay::Layer)));
-    let is_threats = |layer: &&Layer| matches!(layer.kind, LayerKind::Threats(_));
+    let is_threats = |layer: &&Layer| layer.kind.is::<Threats>();
     if let Some(threats) = window.layers().iter().find(is_threats).map(|layer| layer.id) {
         window.send(Command::from(LayerCommand::Select(threats)));
     }

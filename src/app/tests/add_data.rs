@@ -20,7 +20,9 @@ use crate::app::kit::Tab;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading};
+use meshbrush_core::layers::{
+    DistanceLayer, DistanceTo, LayerKind, RasterLayer, RasterReading, Surface, Threats,
+};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -108,7 +110,7 @@ fn a_dropped_grid_of_depths_is_asked_about_and_gives_an_empty_document_its_exten
         "{}",
         notice(&window)
     );
-    let LayerKind::Raster { reading: RasterReading::Curve(curve), .. } = &active(&window).kind else {
+    let Some(RasterLayer { reading: RasterReading::Curve(curve), .. }) = active(&window).kind.get() else {
         panic!("the new layer is selected: {:?}", active(&window));
     };
     assert!(curve.knots().iter().all(|knot| knot[1] > 1.0), "diameters of the new extent: {curve:?}");
@@ -164,7 +166,10 @@ fn shapes_give_an_empty_document_their_extent_and_unit() {
     assert!(possible.iter().any(|role| role == "Keep-out region of paths"), "{possible:?}");
     choose_role(&mut window, "Shapes to measure the distance to");
     wait_until(&mut window, |window| settings(window).layers.len() == 4);
-    assert!(matches!(&active(&window).kind, LayerKind::Distance { to: DistanceTo::Shapes { .. }, .. }));
+    assert!(matches!(
+        &active(&window).kind,
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Shapes { .. }, .. })
+    ));
     let bounds = settings(&window).domain.bounds;
     assert!(bounds.min.x < 20.0 && bounds.max.y > 33.0 && bounds.size().x < 5.0, "{bounds:?}");
     assert_eq!(settings(&window).unit, LengthUnit::Degree);
@@ -224,7 +229,9 @@ fn an_array_lies_where_its_world_file_says_or_over_the_document() {
         [b"\x93NUMPY\x01\0", &[header.len() as u8, 0][..], header.as_bytes(), &[5, 6, 7, 8, 9, 10]].concat();
     let file = written("array", "lengths.npy", array);
     let extent = |window: &Window| match &active(window).kind {
-        LayerKind::Raster { source, reading: RasterReading::Diameter } => source.raster.raster().bounds(),
+        LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter }) => {
+            source.raster.raster().bounds()
+        }
         other => panic!("the new layer is selected: {other:?}"),
     };
     let [mut window, mut empty] = [window(), window()];
@@ -252,7 +259,7 @@ fn a_line_can_only_be_measured_to_and_the_reason_is_told() {
     assert_eq!(chosen.as_deref(), Some("Shapes to measure the distance to"));
     assert!(window.query_all_by_label_contains("has no polygons").count() > 0);
     key(&mut window, Modifiers::NONE, Key::Enter);
-    wait_until(&mut window, |window| matches!(&active(window).kind, LayerKind::Distance { .. }));
+    wait_until(&mut window, |window| active(window).kind.is::<DistanceLayer>());
 }
 
 #[test]
@@ -264,8 +271,8 @@ fn tables_become_threats_or_pins() {
     drop_and_wait(&mut window, &threats);
     assert_eq!(roles(&window).0, ["Threats"]);
     click_button(&mut window, "Add");
-    wait_until(&mut window, |window| matches!(&active(window).kind, LayerKind::Threats(_)));
-    let LayerKind::Threats(threats) = &active(&window).kind else { panic!("a layer of threats") };
+    wait_until(&mut window, |window| active(window).kind.is::<Threats>());
+    let Some(threats) = active(&window).kind.get::<Threats>() else { panic!("a layer of threats") };
     assert_eq!(threats.list().len(), 2);
     assert_eq!(settings(&window).layers.len(), 4, "the layer that was selected stays as it is");
     let bounds = settings(&window).domain.bounds;

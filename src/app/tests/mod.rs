@@ -74,7 +74,7 @@ use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
 use meshbrush_core::document::{Document, Setting, Settings};
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterReading};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterLayer, RasterReading};
 use meshbrush_mesh::mesh::{Fingerprint, TriangleId};
 
 pub type Window = Harness<'static, App>;
@@ -137,7 +137,9 @@ pub fn with_base(window: &Window, kind: LayerKind) -> Setting {
 /// Returns whether a layer reads a raster.
 pub fn has_raster(window: &Window, wanted: &RasterReading) -> bool {
     let mut layers = settings(window).layers.iter();
-    layers.any(|layer| matches!(&layer.kind, LayerKind::Raster { reading, .. } if reading == wanted))
+    layers.any(
+        |layer| matches!(&layer.kind, LayerKind::Raster(RasterLayer { reading, .. }) if reading == wanted),
+    )
 }
 
 pub fn window() -> Window {

@@ -132,7 +132,7 @@ fn while_a_document_is_made_nothing_of_the_last_one_is_shown() {
 
 /// A document with a paint layer of diameters above one of risk.
 fn add_diameter_layer(window: &mut Window) -> LayerId {
-    send(window, Command::from(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Diameter)))));
+    send(window, Command::from(LayerCommand::Add(Box::new(LayerKind::paint(Quantity::Diameter)))));
     super::active(window).id
 }
 

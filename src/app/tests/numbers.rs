@@ -13,7 +13,7 @@ use crate::app::command::{Command, ViewCommand};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::layers::{FormulaLayer, Layer, LayerKind};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, typed};
 
@@ -319,8 +319,7 @@ fn a_formula_is_applied_once_typing_pauses() {
     assert!(is_marked(&window));
     window.run_steps(60);
     window.run();
-    let is_constant =
-        |kind: &LayerKind| matches!(kind, LayerKind::Formula { formula, .. } if formula.constant().is_some());
+    let is_constant = |kind: &LayerKind| matches!(kind, LayerKind::Formula(FormulaLayer { formula, .. }) if formula.constant().is_some());
     assert!(!is_constant(&settings(&window).layers[0].kind), "without Enter");
     assert_ne!(fingerprint(&window), before);
     assert!(!is_marked(&window));

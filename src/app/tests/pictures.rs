@@ -14,7 +14,7 @@ use crate::app::App;
 use crate::app::command::{Command, LayerCommand, ViewCommand};
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{self, Setting};
-use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
 
 /// Returns a window whose canvas is drawn, on the software driver. Slower: only for what is judged by its
 /// picture.
@@ -189,7 +189,7 @@ fn the_canvas_shows_the_mask_and_the_shapes_of_the_selected_layer() {
     let points = vec![dvec2(0.8, 0.4)];
     let list = ShapeList { points, lines: vec![vec![corners[1], corners[2]]], ..ShapeList::default() };
     let to = DistanceTo::Shapes { name: String::new(), shapes: Shapes::new(list, true).unwrap() };
-    let distance = LayerKind::Distance { to, at_zero: 1.0, slope: 0.0, range: 1.0 };
+    let distance = LayerKind::Distance(DistanceLayer { to, at_zero: 1.0, slope: 0.0, range: 1.0 });
     let drawn = shown(LayerCommand::Add(Box::new(distance)));
     let plain = shown(LayerCommand::Select(LayerId(0)));
     for place in [at, on_screen(&window, dvec2(0.8, 0.4))] {

@@ -13,7 +13,7 @@ use crate::app::command::{Command, FileCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::{Domain, DomainShape};
 use meshbrush_core::field::{Formula, RefinementRule};
-use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::layers::{FormulaLayer, Layer, LayerKind};
 
 #[test]
 fn the_diamond_opens_by_menu_and_undo_stops_at_its_start() {
@@ -70,7 +70,7 @@ fn spacing_diameters_and_base_change_the_mesh_at_once() {
     changed(&window, "constant");
     type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.1*x");
     assert!(
-        matches!(&settings(&window).layers[0].kind, LayerKind::Formula { formula, .. } if formula.constant().is_none())
+        matches!(&settings(&window).layers[0].kind, LayerKind::Formula(FormulaLayer { formula, .. }) if formula.constant().is_none())
     );
     changed(&window, "formula");
     type_into(&mut window, "Domain where", "hypot(x - 0.5, y - 0.5) < 0.5");

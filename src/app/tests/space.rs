@@ -30,7 +30,7 @@ fn hills() -> Window {
         norm: SurfaceNorm::Largest,
     };
     let mut layers = settings(&window).layers.clone();
-    layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
+    layers.push(Layer::new(LayerId(70), "Hills", surface));
     send(&mut window, Command::from(EditCommand::Set(Setting::Layers(layers))));
     send(&mut window, Command::from(EditCommand::EndGesture));
     wait_for_jobs(&mut window);

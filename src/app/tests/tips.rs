@@ -21,8 +21,8 @@ use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::PieceChoice;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, PositiveDepth, RasterSource, ShapeList, Shapes,
-    Threats,
+    DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, LayerKind, PositiveDepth, RasterSource,
+    ShapeList, Shapes, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -84,9 +84,10 @@ fn every_control_of_the_panels_has_a_sentence() {
     send(&mut window, Command::from(EditCommand::Set(Setting::Gradation(Some(5.0)))));
     open_tab(&mut window, Tab::Size);
     assert_eq!(unexplained(&window), [""; 0]);
-    let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 };
+    let distance =
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 });
     let to = DistanceTo::Pieces(PieceChoice::of_land());
-    let pieces = LayerKind::Distance { to, at_zero: 0.1, slope: 0.3, range: 0.2 };
+    let pieces = LayerKind::Distance(DistanceLayer { to, at_zero: 0.1, slope: 0.3, range: 0.2 });
     let raster = || {
         let raster = Raster::from_values(Rect::UNIT, [2, 1], vec![0.0, 1.0]);
         RasterSource { name: "depth.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) }
@@ -100,7 +101,7 @@ fn every_control_of_the_panels_has_a_sentence() {
     let [straits, feature_size] = [LayerKind::straits(&transfer), LayerKind::feature_size(&transfer)];
     let depths = [DepthRule::Nothing, DepthRule::USUAL_WAVELENGTH, SLOPE, COURANT].map(|rule| {
         let sizes = DepthSizes { positive: PositiveDepth::Up, offset: 0.0, between: [0.0, 9.0], rule };
-        LayerKind::Depth(Depths::new(raster(), sizes))
+        Depths::new(raster(), sizes).into()
     });
     for kind in [formula, risk, distance, pieces, corridor, curve, band, straits, feature_size]
         .into_iter()

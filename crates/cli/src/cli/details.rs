@@ -257,11 +257,8 @@ const MOST_STRAITS: usize = 1000;
 impl StraitSummary {
     /// Counts triangles for the uppermost visible layer that asks for them.
     pub fn of(layers: &[Layer], extract: &Extract, domain: &Domain) -> Option<Self> {
-        let straits =
-            layers.iter().rev().filter(|layer| layer.visible).find_map(|layer| match &layer.kind {
-                LayerKind::Straits(straits) => Some(straits),
-                _ => None,
-            })?;
+        let mut visible = layers.iter().rev().filter(|layer| layer.visible);
+        let straits: &Straits = visible.find_map(|layer| layer.kind.get())?;
         let narrowest = straits.found.narrowest(domain);
         let counts = StraitCount::of(straits, narrowest.as_ref(), extract.view());
         let is_below = |count: &&StraitCount| (count.triangles as f64) < straits.across;

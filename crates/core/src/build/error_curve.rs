@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::search::Search;
 use super::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts};
-use crate::layers::{LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
+use crate::layers::{PaintLayers, Surface, SurfaceGoal, SurfaceNorm};
 use crate::mesh::{Element, Limits, Mesh, Progress, Refiner, TriangleId};
 use crate::surface::{CurvePoint, QueueGoal, SurfaceRule, SurfaceSamples, SurfaceSampling};
 
@@ -72,22 +72,15 @@ impl MeshSpec {
     /// Returns the norm of the topmost visible surface, if a layer is one.
     pub fn surface_norm(&self) -> Option<SurfaceNorm> {
         let mut visible = self.field.layers.iter().rev().filter(|layer| layer.visible);
-        visible.find_map(|layer| match &layer.kind {
-            LayerKind::Surface(surface) => Some(surface.norm),
-            _ => None,
-        })
+        visible.find_map(|layer| layer.kind.get()).map(|surface: &Surface| surface.norm)
     }
 
     /// Returns this description without goals for surfaces of a norm: all that the curves of the norm depend
     /// on, besides paint.
     pub fn without_goals(mut self, norm: SurfaceNorm) -> Self {
-        for layer in &mut self.field.layers {
-            match &mut layer.kind {
-                LayerKind::Surface(surface) if surface.norm == norm => {
-                    surface.goal = SurfaceGoal::AtMost(usize::MAX);
-                }
-                _ => {}
-            }
+        let surfaces = self.field.layers.iter_mut().filter_map(|layer| layer.kind.get_mut::<Surface>());
+        for surface in surfaces.filter(|surface| surface.norm == norm) {
+            surface.goal = SurfaceGoal::AtMost(usize::MAX);
         }
         self
     }
@@ -102,7 +95,7 @@ impl CurveTracing {
     pub fn new(spec: MeshSpec, mut parts: Parts, norm: SurfaceNorm, most: usize) -> Self {
         let spec = spec.without_goals(norm);
         let mut others = spec.clone();
-        others.field.layers.retain(|layer| !matches!(layer.kind, LayerKind::Surface(_)));
+        others.field.layers.retain(|layer| !layer.kind.is::<Surface>());
         let samples = parts.samples.take();
         let builder = MeshBuilder::from_parts(others, parts);
         let most = most.min(spec.limits.most_triangles());

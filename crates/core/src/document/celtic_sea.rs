@@ -12,8 +12,8 @@ use crate::earth::{Coordinates, GeographicExtent, ProjectionChoice, Reprojection
 use crate::field::Transfer;
 use crate::geometry::Rect;
 use crate::layers::{
-    DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerKind, PositiveDepth, RasterSource, StraitSearch,
-    Straits,
+    DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, Layer, LayerKind, PositiveDepth, RasterSource,
+    StraitSearch, Straits,
 };
 use crate::mesh::Progress;
 use crate::raster::{Raster, RasterPyramid, projected_raster};
@@ -186,7 +186,7 @@ fn settings(name: &str, domain: Domain, kinds: [LayerKind; 4]) -> Settings {
 fn depth_layers(domain: &Domain, depths: &RasterSource) -> [LayerKind; 2] {
     let depth = |rule, [from, to]: [f64; 2]| {
         let sizes = DepthSizes { positive: PositiveDepth::Down, offset: 0.0, between: [from, to], rule };
-        LayerKind::Depth(Depths::new_in_plane(depths.clone(), sizes, domain.projection))
+        Depths::new_in_plane(depths.clone(), sizes, domain.projection).into()
     };
     // A wave of half an hour, as from an earthquake.
     let waves = DepthRule::Wavelength { period: 1800.0, triangles: 5.0 };
@@ -195,5 +195,5 @@ fn depth_layers(domain: &Domain, depths: &RasterSource) -> [LayerKind; 2] {
 }
 
 fn along_coasts() -> LayerKind {
-    LayerKind::Distance { to: DistanceTo::Coasts, at_zero: 2500.0, slope: 0.15, range: f64::INFINITY }
+    DistanceLayer { to: DistanceTo::Coasts, at_zero: 2500.0, slope: 0.15, range: f64::INFINITY }.into()
 }

@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::{KeepOut, PathPlan, Setting, Settings};
 use crate::domain::{CutShape, Domain, RegionError, corners};
 use crate::geometry::Rect;
-use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, Mask, ShapeList, Shapes, ShapesError};
+use crate::layers::{DistanceLayer, DistanceTo, Layer, LayerId, Mask, ShapeList, Shapes, ShapesError};
 
 /// The part of a document that is drawn by hand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,10 +155,8 @@ impl DrawnPart {
                 let area = regions.get(number).map(|region| region.mask.clone());
                 (number <= regions.len()).then_some(Drawing::Area { area, whole: None })
             }
-            Self::Shapes(id) => match &settings.layer(id)?.kind {
-                LayerKind::Distance { to: DistanceTo::Shapes { shapes, .. }, .. } => {
-                    Some(Drawing::Shapes(Some(shapes.clone())))
-                }
+            Self::Shapes(id) => match &settings.layer(id)?.kind.get::<DistanceLayer>()?.to {
+                DistanceTo::Shapes { shapes, .. } => Some(Drawing::Shapes(Some(shapes.clone()))),
                 _ => None,
             },
         }
@@ -173,7 +171,9 @@ impl DrawnPart {
                 with_layer(settings, id, |layer| layer.mask = mask)
             }
             (Self::Shapes(id), Drawing::Shapes(Some(drawn))) => with_layer(settings, id, |layer| {
-                if let LayerKind::Distance { to: DistanceTo::Shapes { shapes, .. }, .. } = &mut layer.kind {
+                if let Some(DistanceLayer { to: DistanceTo::Shapes { shapes, .. }, .. }) =
+                    layer.kind.get_mut()
+                {
                     *shapes = drawn;
                 }
             }),
@@ -219,6 +219,7 @@ impl PathPlan {
 
 #[cfg(test)]
 mod tests {
+    use crate::layers::LayerKind;
     use glam::dvec2;
 
     use super::*;

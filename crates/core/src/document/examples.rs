@@ -8,8 +8,9 @@ use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon, Poly
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
-    Shapes, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve,
+    BandLayer, Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterLayer,
+    RasterReading, RasterSource, ShapeList, Shapes, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat,
+    ThreatLaw, Threats, ValueCurve,
 };
 use crate::paint::{Brush, Medium};
 use crate::raster::{Raster, RasterPyramid};
@@ -238,7 +239,7 @@ fn source_of(slope: Raster) -> RasterSource {
 fn terrain(slope: Raster) -> Settings {
     let bounds = slope.bounds();
     let source = source_of(slope);
-    let slope_as_risk = LayerKind::Raster { source, reading: RasterReading::Risk };
+    let slope_as_risk = LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk });
     Settings {
         name: Example::Terrain.name().into(),
         unit: LengthUnit::Kilometre,
@@ -269,7 +270,7 @@ fn heights(heights: Raster) -> Settings {
     };
     let settings = settings.with_nodes_on_samples(&surface);
     let mut layers = Layer::usual(surface);
-    if let Some(heights) = layers.iter_mut().find(|layer| matches!(layer.kind, LayerKind::Surface(_))) {
+    if let Some(heights) = layers.iter_mut().find(|layer| layer.kind.is::<Surface>()) {
         heights.name = "Heights".into();
     }
     Settings { layers, ..settings }
@@ -330,12 +331,12 @@ fn layers_of_terrain(slope: &RasterSource, at: impl Fn(DVec2) -> DVec2) -> Vec<L
     let survey = Mask::new(&[vec![SURVEY.map(&at).to_vec()]]).expect("a valid polygon");
     let named = [
         ("Base", LayerKind::target(Formula::parse("1.4 + 0.6*sin(x/3)*cos(y/4)").expect("a valid formula"))),
-        ("Slope", LayerKind::Raster { source: slope.clone(), reading }),
-        ("Cliffs", LayerKind::Band { source: slope.clone(), between: [0.97, 1.0], diameter: 0.3 }),
-        ("Road", LayerKind::Distance { to, at_zero: 0.1, slope: 0.3, range: 3.0 }),
+        ("Slope", LayerKind::Raster(RasterLayer { source: slope.clone(), reading })),
+        ("Cliffs", LayerKind::Band(BandLayer { source: slope.clone(), between: [0.97, 1.0], diameter: 0.3 })),
+        ("Road", LayerKind::Distance(DistanceLayer { to, at_zero: 0.1, slope: 0.3, range: 3.0 })),
         ("Coarse survey", floor),
         ("Radio masts", LayerKind::Threats(Threats::new(masts).expect("valid threats"))),
-        ("Landing site", LayerKind::Paint(Quantity::Risk)),
+        ("Landing site", LayerKind::paint(Quantity::Risk)),
     ];
     let layer = |(id, (name, kind)): (u32, (&str, LayerKind))| Layer::new(LayerId(id), name, kind);
     let mut layers: Vec<Layer> = (0..).zip(named).map(layer).collect();

@@ -242,8 +242,8 @@ mod tests {
     use crate::field::{CostFormula, Formula};
     use crate::geometry::Rect;
     use crate::layers::{
-        DistanceTo, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat,
-        ThreatLaw, Threats,
+        DistanceLayer, DistanceTo, LayerKind, Mask, Quantity, RasterLayer, RasterReading, RasterSource,
+        ShapeList, Shapes, Threat, ThreatLaw, Threats,
     };
     use crate::raster::{Raster, RasterPyramid};
 
@@ -257,7 +257,7 @@ mod tests {
     fn picture(side: u32) -> Setting {
         let raster = Raster::filled(Rect::UNIT, [side, side], 0.5);
         let source = RasterSource { name: String::new(), raster: Arc::new(RasterPyramid::new(raster)) };
-        Setting::Layers(Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]))
+        Setting::Layers(Layer::stack([RasterLayer { source, reading: RasterReading::Risk }]))
     }
 
     fn formula(text: &str) -> Setting {
@@ -368,7 +368,7 @@ mod tests {
     #[test]
     fn masks_threats_and_shapes_count() {
         const COUNT: usize = 20_000;
-        let paint = || LayerKind::Paint(Quantity::Risk);
+        let paint = || LayerKind::paint(Quantity::Risk);
         let mut masked = Layer::new(LayerId(7), "", paint());
         let least = kept_by_undo(masked.clone());
         masked.mask = Some(Mask::new(&[vec![ring(COUNT)]]).unwrap());
@@ -378,7 +378,7 @@ mod tests {
         let lines = ShapeList { lines: vec![ring(COUNT)], ..ShapeList::default() };
         let shapes = Shapes::new(lines, false).unwrap();
         let to = DistanceTo::Shapes { name: String::new(), shapes };
-        let distance = LayerKind::Distance { to, at_zero: 0.01, slope: 0.1, range: 1.0 };
+        let distance = LayerKind::Distance(DistanceLayer { to, at_zero: 0.01, slope: 0.1, range: 1.0 });
         let layers = [masked, Layer::new(LayerId(7), "", threats), Layer::new(LayerId(7), "", distance)];
         for layer in layers {
             let label = layer.kind.label();
@@ -390,7 +390,7 @@ mod tests {
     #[test]
     fn undo_of_large_masks_is_bounded() {
         let mut document = Document::new(Settings::default(), None).unwrap();
-        let mut layer = Layer::new(LayerId(7), "", LayerKind::Paint(Quantity::Risk));
+        let mut layer = Layer::new(LayerId(7), "", LayerKind::paint(Quantity::Risk));
         let mut kept = Vec::new();
         for n in 0..60 {
             let mask = Mask::new(&[vec![ring(60_000 + n)]]).unwrap();

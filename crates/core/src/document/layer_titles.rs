@@ -46,7 +46,7 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask, Quantity, Threats};
+    use crate::layers::{Combine, DistanceLayer, DistanceTo, LayerId, LayerKind, Mask, Quantity, Threats};
 
     fn title(edit: impl FnOnce(&mut Vec<Layer>)) -> &'static str {
         let before = Layer::usual(LayerKind::constant(0.2));
@@ -98,11 +98,11 @@ mod tests {
     #[test]
     fn changes_of_what_a_layer_asks_for_have_the_name_of_its_kind() {
         let to = DistanceTo::Outline;
-        let distance = LayerKind::Distance { to, at_zero: 0.1, slope: 0.3, range: 1.0 };
+        let distance = LayerKind::Distance(DistanceLayer { to, at_zero: 0.1, slope: 0.3, range: 1.0 });
         for (kind, expected) in [
             (LayerKind::constant(0.3), "formula"),
             (LayerKind::Threats(Threats::default()), "threats"),
-            (LayerKind::Paint(Quantity::Risk), "paint layer"),
+            (LayerKind::paint(Quantity::Risk), "paint layer"),
             (distance, "distance"),
         ] {
             assert_eq!(title(|layers| layers[0].kind = kind), expected);

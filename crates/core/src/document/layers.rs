@@ -184,7 +184,7 @@ impl Document {
             found => return Ok(found?),
         };
         let id = self.unused_layer_id();
-        let kind = LayerKind::Paint(quantity);
+        let kind = LayerKind::paint(quantity);
         let mut layers = self.settings.layers.clone();
         layers.push(Layer::new(id, kind.label(), kind));
         self.set(Setting::Layers(layers))?;
@@ -204,7 +204,7 @@ mod tests {
     /// those of the other, and the project could not be opened.
     #[test]
     fn a_new_layer_does_not_have_the_identifier_of_one_that_undo_brings_back() {
-        let kinds = [Quantity::Diameter, Quantity::Risk].map(LayerKind::Paint);
+        let kinds = [Quantity::Diameter, Quantity::Risk].map(LayerKind::paint);
         let layers = Layer::stack(kinds);
         let mut document =
             Document::new(Settings { layers: layers.clone(), ..Settings::default() }, None).unwrap();
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn painted_pixels_are_not_read_as_another_quantity() {
-        let stack = |quantity| Layer::stack([LayerKind::Paint(quantity)]);
+        let stack = |quantity| Layer::stack([LayerKind::paint(quantity)]);
         let [risk, diameter] = [Quantity::Risk, Quantity::Diameter].map(stack);
         let with = |layers: &Vec<Layer>| Settings { layers: layers.clone(), ..Settings::default() };
         let mut document = Document::new(with(&risk), None).unwrap();

@@ -9,7 +9,7 @@ use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{
-    DepthRule, DistanceTo, Layer, LayerKind, Quantity, Shapes, ShapesError, SizeFieldSpec, SurfaceGoalError,
+    Depths, FormulaLayer, Layer, LayerKind, Quantity, Shapes, SizeFieldSpec, SurfaceGoalError,
 };
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, bisection_edge_length};
 use crate::path::PathError;
@@ -227,7 +227,7 @@ impl Settings {
             if !ids.insert(layer.id) {
                 return Err(SettingsError::SameLayer(layer.id.0));
             }
-            if let LayerKind::Formula { quantity: Quantity::Diameter, formula } = &layer.kind
+            if let Some(FormulaLayer { quantity: Quantity::Diameter, formula }) = layer.kind.get()
                 && let Some(value) = formula.constant()
                 && (value.is_nan() || value <= 0.0)
             {
@@ -245,7 +245,7 @@ impl Settings {
     /// Checks that formulas that use the depth have one. A hidden layer of depths is enough: without depths
     /// in sight they ask for nothing.
     fn check_depth_formulas(&self) -> Result<(), SettingsError> {
-        let has_depths = self.layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+        let has_depths = self.layers.iter().any(|layer| layer.kind.is::<Depths>());
         for layer in self.layers.iter().filter(|layer| layer.kind.uses_depth()) {
             let name = layer.name.clone();
             if layer.is_of_risk() {
@@ -263,10 +263,7 @@ impl Settings {
     /// # Errors
     /// Fails with the first visible layer that asks for them in another unit.
     pub fn check_depth_unit(&self) -> Result<(), SettingsError> {
-        let asks = |layer: &&Layer| match &layer.kind {
-            LayerKind::Depth(depths) => layer.visible && depths.sizes().rule != DepthRule::Nothing,
-            _ => false,
-        };
+        let asks = |layer: &&Layer| layer.visible && layer.kind.needs_metres();
         match self.layers.iter().find(asks) {
             Some(layer) if !self.unit.may_be_metres() => {
                 Err(SettingsError::DepthUnit { layer: layer.name.clone(), unit: self.unit })
@@ -311,40 +308,22 @@ impl Settings {
     /// Returns a layer as the size field has it: shapes take the place of coasts and pieces of the boundary.
     pub fn field_layer(&self, layer: &Layer) -> Layer {
         let mut layer = layer.clone();
-        if let LayerKind::Distance { to, .. } = &mut layer.kind {
-            let shapes = match to {
-                DistanceTo::Coasts => Shapes::coasts(&self.domain, &self.boundary_marks),
-                DistanceTo::Pieces(chosen) => Shapes::lines(chosen.lines(&self.domain, &self.boundary_marks)),
-                _ => Err(ShapesError::Empty),
-            };
-            if let Ok(shapes) = shapes {
-                *to = DistanceTo::Shapes { name: String::new(), shapes };
-            }
-        }
-        self.find_straits_of(&mut layer);
+        layer.kind.enter_field(&self.domain, &self.boundary_marks);
+        layer.kind.follow_domain(&self.domain, &self.boundary_marks);
         layer
     }
 
     /// Finds the straits and the middle of the water of the domain for the layers that ask for them, and the
     /// slopes of the ground for those that ask for slopes.
     pub(super) fn find_straits(&mut self) {
-        let mut layers = std::mem::take(&mut self.layers);
-        layers.iter_mut().for_each(|layer| self.find_straits_of(layer));
-        self.layers = layers;
-    }
-
-    fn find_straits_of(&self, layer: &mut Layer) {
-        match &mut layer.kind {
-            LayerKind::Straits(straits) => *straits = straits.for_domain(&self.domain, &self.boundary_marks),
-            LayerKind::FeatureSize(size) => *size = size.for_domain(&self.domain, &self.boundary_marks),
-            LayerKind::Depth(depths) => *depths = depths.in_plane(self.domain.projection),
-            _ => {}
+        for layer in &mut self.layers {
+            layer.kind.follow_domain(&self.domain, &self.boundary_marks);
         }
     }
 
     /// Returns the boundary of the domain, if a layer asks for the distance to it.
     fn outline_shapes(&self) -> Option<Shapes> {
-        let is_asked = self.layers.iter().any(|layer| layer.visible && layer.is_of_outline());
+        let is_asked = self.layers.iter().any(|layer| layer.visible && layer.kind.is_of_outline());
         let region = if is_asked { self.domain.as_region()? } else { return None };
         Shapes::outline(&region).ok()
     }

@@ -9,7 +9,7 @@ use crate::surface::domain_on_samples;
 impl Settings {
     pub(super) fn check_surfaces(&self) -> Result<(), SettingsError> {
         for layer in &self.layers {
-            if let LayerKind::Surface(surface) = &layer.kind {
+            if let Some(surface) = layer.kind.get::<Surface>() {
                 let refused = |error| SettingsError::Surface { layer: layer.name.clone(), error };
                 surface.goal.check().map_err(refused)?;
             }
@@ -30,16 +30,14 @@ impl Settings {
 
     /// Returns the visible layers of surfaces.
     pub fn surfaces(&self) -> impl Iterator<Item = (&Layer, &Surface)> {
-        self.layers.iter().filter(|layer| layer.visible).filter_map(|layer| match &layer.kind {
-            LayerKind::Surface(surface) => Some((layer, surface)),
-            _ => None,
-        })
+        let visible = self.layers.iter().filter(|layer| layer.visible);
+        visible.filter_map(|layer| Some((layer, layer.kind.get()?)))
     }
 
     /// Returns these settings with a domain and a spacing whose nodes are at the samples of a surface;
     /// unchanged for other kinds of layers, and for samples that no nodes can be at.
     pub fn with_nodes_on_samples(self, kind: &LayerKind) -> Self {
-        let LayerKind::Surface(surface) = kind else { return self };
+        let Some(surface) = kind.get::<Surface>() else { return self };
         let raster = surface.source.raster().map(|source| source.raster.raster());
         match raster.and_then(|raster| domain_on_samples(raster, None)) {
             Some((bounds, spacing)) => {

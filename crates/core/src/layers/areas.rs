@@ -98,7 +98,7 @@ impl SizeField {
         let mut changes = Vec::new();
         for step in self.spec().difference(old.spec(), &circumstances) {
             let rects = step.area.rects_within(self.lattice().bounds());
-            let rects = if old.slope().is_some() { NEAR.of(rects) } else { rects };
+            let rects = if old.stack.slope().is_some() { NEAR.of(rects) } else { rects };
             for core in rects.iter().filter_map(|rect| self.core(rect)) {
                 let asked = [old, self].map(|field| field.least_asked(step.layer, core, paint));
                 let least = self.least_diameter(asked[0].min(asked[1]), old);
@@ -140,7 +140,7 @@ impl SizeField {
         painted: &[PaintChange],
         paint: &PaintLayers,
     ) -> Vec<ChangedArea> {
-        let joining = if self.slope().is_some() { NEAR } else { OVERLAPPING };
+        let joining = if self.stack.slope().is_some() { NEAR } else { OVERLAPPING };
         let changes = joining.of_changes(painted);
         squares.make_room();
         let cores: Vec<Cells> = changes.iter().filter_map(|painted| self.core(&painted.area)).collect();
@@ -149,7 +149,7 @@ impl SizeField {
         let mut areas = Vec::new();
         for painted in &changes {
             let Some((core, least, change)) = self.changed_core(painted, paint) else { continue };
-            let cells = match self.slope() {
+            let cells = match self.stack.slope() {
                 _ if least >= self.longest() => Vec::new(),
                 None => self.parts_above(core, least, (others, paint)),
                 Some(slope) => {
@@ -166,11 +166,11 @@ impl SizeField {
     fn all_but(&self, layers: impl Iterator<Item = LayerId>) -> Option<Counting> {
         let mut others = Counting::ALL;
         for id in layers {
-            let number = self.compiled().iter().position(|compiled| compiled.id == id);
+            let number = self.stack.layers().iter().position(|compiled| compiled.id == id);
             // A hidden layer never counts.
             let Some(number) = number else { continue };
             others = others.without(number);
-            if others.has(number) || !self.compiled()[number].is_plain() {
+            if others.has(number) || !self.stack.layers()[number].is_plain() {
                 return None;
             }
         }
@@ -185,11 +185,11 @@ impl SizeField {
         diameter: f64,
         (others, paint): (Option<Counting>, &PaintLayers),
     ) -> Vec<Cells> {
-        let Some(others) = others.filter(|&others| self.counting(others).next().is_some()) else {
+        let Some(others) = others.filter(|&others| self.stack.counting(others).next().is_some()) else {
             return vec![cells];
         };
         let mut parts = Vec::new();
-        let above = |cells: &Cells| match self.diameters(paint, cells, others).0 {
+        let above = |cells: &Cells| match self.stack.diameters(paint, cells, others).0 {
             [_, greatest] if greatest <= diameter => Share::None,
             [least, _] if least > diameter => Share::All,
             _ => Share::Some,
@@ -217,7 +217,7 @@ impl SizeField {
         let (asked, change) = match change {
             _ if !is_ordered => (0.0, TargetChange::Any),
             change => {
-                let compiled = self.compiled().iter().find(|compiled| compiled.id == layer.id);
+                let compiled = self.stack.layers().iter().find(|compiled| compiled.id == layer.id);
                 let before = compiled.map_or(0.0, |compiled| compiled.diameters_of(*before).least);
                 let now = || self.least_asked(Some(layer.id), core, paint);
                 let asked = match change {
@@ -235,7 +235,7 @@ impl SizeField {
     /// infinite where it is hidden.
     fn least_asked(&self, layer: Option<LayerId>, core: Cells, paint: &PaintLayers) -> f64 {
         let Some(id) = layer else { return 0.0 };
-        let compiled = self.compiled().iter().find(|compiled| compiled.id == id);
+        let compiled = self.stack.layers().iter().find(|compiled| compiled.id == id);
         compiled.map_or(f64::INFINITY, |layer| layer.diameters(paint, &core, self.lattice()).0.least)
     }
 
@@ -255,7 +255,7 @@ impl SizeField {
         paint: &PaintLayers,
         change: TargetChange,
     ) -> impl Iterator<Item = ChangedArea> + use<> {
-        let cells = match self.slope() {
+        let cells = match self.stack.slope() {
             _ if least >= self.longest() => Vec::new(),
             None => vec![core],
             Some(slope) => Reach { fields, paint, slope }.of(core, least),
@@ -274,7 +274,7 @@ impl SizeField {
         let closed = move |cells: Cells| LatticeRect::from(cells).expanded(1, extent);
         // The updater compares it with diameters in the plane.
         let scale = self.edge_lengths().least_scale();
-        let slope = scale * self.slope().unwrap_or(0.0);
+        let slope = scale * self.stack.slope().unwrap_or(0.0);
         let falloff = Some(Falloff { core: closed(core), least: scale * least, slope });
         cells.into_iter().map(move |cells| ChangedArea { rect: closed(cells), change, falloff })
     }
@@ -298,15 +298,14 @@ mod tests {
     use crate::field::{RefinementRule, Transfer};
     use crate::geometry::Lattice;
     use crate::layers::extent::{Extent, ExtentContext};
-    use crate::layers::{DistanceTo, Layer, LayerKind, ShapeList, Shapes, SizeFieldSpec};
+    use crate::layers::{DistanceLayer, DistanceTo, Layer, LayerKind, ShapeList, Shapes, SizeFieldSpec};
 
     #[test]
     fn a_corridor_asks_for_nothing_beyond_its_extent() {
         let lines = vec![vec![dvec2(0.3, 0.4), dvec2(0.6, 0.5)]];
         let lines = Shapes::new(ShapeList { lines, ..ShapeList::default() }, false).unwrap();
         let to = DistanceTo::Corridor { lines, width: 0.1 };
-        let layer =
-            Layer::stack([LayerKind::Distance { to, at_zero: 0.01, slope: 0.1, range: 0.15 }]).remove(0);
+        let layer = Layer::stack([DistanceLayer { to, at_zero: 0.01, slope: 0.1, range: 0.15 }]).remove(0);
         let paint = PaintLayers::default();
         let spec = SizeFieldSpec {
             layers: vec![layer.clone()],

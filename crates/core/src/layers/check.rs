@@ -43,8 +43,8 @@ impl LayerCheck {
     /// Creates the work that checks all visible layers of a field.
     pub fn new(field: &SizeField) -> Self {
         let all = Cells::all(field.lattice().extent());
-        let is_checked = |n: &usize| field.compiled()[*n].can_be_invalid();
-        Self { left: (0..field.compiled().len()).rev().filter(is_checked).map(|n| (n, all)).collect() }
+        let is_checked = |n: &usize| field.stack.layers()[*n].can_be_invalid();
+        Self { left: (0..field.stack.layers().len()).rev().filter(is_checked).map(|n| (n, all)).collect() }
     }
 
     /// Returns the work that checks the visible layers of a field that differ from all visible ones of
@@ -74,7 +74,7 @@ impl LayerCheck {
     pub fn advance(&mut self, field: &SizeField, budget: usize) -> Result<Progress, InvalidLayer> {
         for _ in 0..budget {
             let Some((number, cells)) = self.left.pop() else { return Ok(Progress::Done) };
-            let layer = &field.compiled()[number];
+            let layer = &field.stack.layers()[number];
             match checked(layer, &cells, field.lattice()) {
                 Checked::Valid => {}
                 Checked::Divided(parts) => self.left.extend(parts.map(|part| (number, part))),

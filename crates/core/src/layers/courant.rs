@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::depth::wave_speed;
-use super::{Combine, DepthRule, Layer, LayerKind};
+use super::{Combine, DepthRule, Depths, Layer};
 use crate::mesh::MeshView;
 
 /// What solvers check: the Courant numbers of edges, u Δt / L, where L is the length of an edge and
@@ -56,8 +56,7 @@ impl CourantFit {
 
 /// Returns the time step and the Courant number of a layer that is a floor for one.
 fn floor(layer: &Layer) -> Option<(f64, f64)> {
-    let LayerKind::Depth(depths) = &layer.kind else { return None };
-    match depths.sizes().rule {
+    match layer.kind.get::<Depths>()?.sizes().rule {
         DepthRule::Courant { time_step, number } if layer.visible && layer.combine == Combine::Floor => {
             Some((time_step, number))
         }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{DepthRule, Depths, Layer, LayerKind};
+use super::{Depths, Layer, LayerSource};
 use crate::geometry::Rect;
 
 /// The visible layers of depths of a stack. Each counts where it has a value and its mask covers, and no
@@ -14,11 +14,8 @@ impl<'a> DepthSurface<'a> {
     /// Returns the surface of a stack of layers, from the bottom to the top; `None` if no visible layer is
     /// one of depths.
     pub fn of(layers: &'a [Layer]) -> Option<Self> {
-        let depths = layers.iter().rev().filter_map(|layer| match &layer.kind {
-            LayerKind::Depth(depths) if layer.visible => Some((layer, depths)),
-            _ => None,
-        });
-        let depths: Vec<_> = depths.collect();
+        let visible = layers.iter().rev().filter(|layer| layer.visible);
+        let depths: Vec<_> = visible.filter_map(|layer| Some((layer, layer.kind.get()?))).collect();
         (!depths.is_empty()).then_some(Self(depths))
     }
 
@@ -46,18 +43,12 @@ impl<'a> DepthSurface<'a> {
 /// Returns the layers of depths above a layer of depths in its stack that hide it where they have values:
 /// those of other files that ask for sizes.
 pub(super) fn hiding<'a>(stack: &'a [Layer], layer: &Layer) -> impl Iterator<Item = (&'a Layer, &'a Depths)> {
-    let own = match &layer.kind {
-        LayerKind::Depth(depths) => Some(depths.source().clone()),
-        _ => None,
-    };
+    let own = layer.kind.get::<Depths>().map(|depths| depths.source().clone());
     let place = stack.iter().position(|other| other.id == layer.id);
     let above = place.map_or(&stack[..0], |place| &stack[place + 1..]);
-    above.iter().filter(|above| above.visible).filter_map(move |above| match (&above.kind, &own) {
-        (LayerKind::Depth(depths), Some(own)) => {
-            let hides = depths.sizes().rule != DepthRule::Nothing && depths.source() != own;
-            hides.then_some((above, depths))
-        }
-        _ => None,
+    above.iter().filter(|above| above.visible).filter_map(move |above| {
+        let (depths, own) = (above.kind.get::<Depths>()?, own.as_ref()?);
+        (depths.asks_for_diameters() && depths.source() != own).then_some((above, depths))
     })
 }
 

@@ -15,17 +15,13 @@
 //! specifications are taken apart completely, without `..`: a new field does not compile until somebody has
 //! decided what it changes.
 
-mod distance;
-
 use std::sync::Arc;
 
 use super::extent::{Extent, ExtentContext};
+use super::kinds::areas_that_differ;
 use super::risk::{RiskField, RiskLayer, RiskSource};
-use super::{
-    Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeFieldSpec, Threat, Threats,
-    hidden_differently, surface_changes,
-};
-use crate::field::{Formula, Transfer};
+use super::{Combine, Layer, LayerId, PaintLayers, SizeFieldSpec, hidden_differently, surface_changes};
+use crate::field::Transfer;
 use crate::geometry::Rect;
 use crate::mesh::TargetChange::{self, Any, Coarser, Finer};
 
@@ -53,6 +49,40 @@ pub(crate) struct Circumstances<'a> {
     /// Rectangles in world units that hold every edge that only one of the two outlines has, if they are
     /// known.
     pub outline_areas: Option<&'a [Rect]>,
+}
+
+/// The edit of the settings of a layer that stays visible, and is combined as before.
+#[derive(Clone, Copy, Debug)]
+pub struct LayerEdit<'a> {
+    /// How it is combined with the layers below.
+    pub combine: Combine,
+    /// What decides where the layer asks for something now.
+    pub new: &'a ExtentContext<'a>,
+    /// What decided it before.
+    pub old: &'a ExtentContext<'a>,
+    /// Whether the outlines differ.
+    pub has_new_outline: bool,
+    /// See [`Circumstances`].
+    pub outline_areas: Option<&'a [Rect]>,
+}
+
+/// How the diameters of a layer change by an edit of its settings.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueChange {
+    /// They stay.
+    Nothing,
+    /// They change in one direction, wherever the layer asks for something before or after.
+    Anywhere(TargetChange),
+    /// They change in some rectangles only, in steps with a direction each. In a floor or a replacement the
+    /// directions do not count.
+    Within(Vec<(Vec<Rect>, TargetChange)>),
+}
+
+impl ValueChange {
+    /// Returns a change in some direction, if there is one.
+    pub fn of(direction: Option<TargetChange>) -> Self {
+        direction.map_or(Self::Nothing, Self::Anywhere)
+    }
 }
 
 impl SizeFieldSpec {
@@ -125,7 +155,7 @@ fn slope(gradation: Option<f64>) -> f64 {
 }
 
 /// Returns the direction of a change of numbers with which h̄ grows; `None` where none differs.
-fn direction<const N: usize>(new: [f64; N], old: [f64; N]) -> Option<TargetChange> {
+pub fn direction<const N: usize>(new: [f64; N], old: [f64; N]) -> Option<TargetChange> {
     let all = |holds: fn(&f64, &f64) -> bool| new.iter().zip(&old).all(|(new, old)| holds(new, old));
     if all(|new, old| new == old) {
         None
@@ -251,7 +281,7 @@ impl Steps<'_> {
         }
         let has_new_values = kind != old_kind
             || (self.has_new_curve && new.is_of_risk())
-            || (self.has_new_outline && new.is_of_outline());
+            || (self.has_new_outline && new.kind.is_of_outline());
         match (mask, old_mask) {
             _ if mask == old_mask => {}
             (Some(_), None) if !has_new_values => {
@@ -272,42 +302,26 @@ impl Steps<'_> {
         if self.has_new_curve && (new.is_of_risk() || old.is_of_risk()) {
             return self.add_both(new, old, Any);
         }
-        let change = match (&new.kind, &old.kind) {
-            (LayerKind::Threats(threats), LayerKind::Threats(before)) => {
-                return self.add_threats(new, threats, before);
-            }
-            _ if self.has_new_outline && (new.is_of_outline() || old.is_of_outline()) => {
-                return self.add_distance_to_outline(new, old);
-            }
-            _ if self.add_other_lines(new, old) => return,
-            (new_kind, old_kind) => values_change(new_kind, old_kind, new.combine),
+        if new.is_of_errors() && old.is_of_errors() {
+            return;
+        }
+        let edit = LayerEdit {
+            combine: new.combine,
+            new: &self.new,
+            old: &self.old,
+            has_new_outline: self.has_new_outline,
+            outline_areas: self.outline_areas,
         };
-        if let Some(change) = change {
-            self.add_both(new, old, change);
-        }
-    }
-
-    /// Other threats of a layer. A threat that is replaced leaves, and the other one joins.
-    fn add_threats(&mut self, layer: &Layer, new: &Threats, old: &Threats) {
-        let is_finest = layer.combine == Combine::Finest;
-        let [mut finer, mut coarser] = [Vec::new(), Vec::new()];
-        for (before, after) in changed_threats(new, old) {
-            let [gains, loses] = match (before, after) {
-                (Some(before), Some(after)) => {
-                    let differs_in_peak = Threat { peak: before.peak, ..*after } == *before;
-                    [
-                        !differs_in_peak || after.peak > before.peak,
-                        !differs_in_peak || after.peak < before.peak,
-                    ]
+        match new.kind.change_since(&*old.kind, &edit) {
+            ValueChange::Nothing => {}
+            ValueChange::Anywhere(change) => self.add_both(new, old, change),
+            ValueChange::Within(steps) => {
+                for (rects, change) in steps {
+                    let change = if new.combine == Combine::Finest { change } else { Any };
+                    let area = Extent::of(rects).within_mask(new.mask.as_ref());
+                    self.add(new, new.combine, area, change);
                 }
-                (before, after) => [after.is_some(), before.is_some()],
-            };
-            finer.extend(reach(after).filter(|_| gains));
-            coarser.extend(reach(before).filter(|_| loses));
-        }
-        for (rects, change) in [(finer, Finer), (coarser, Coarser)] {
-            let area = Extent::of(rects).within_mask(layer.mask.as_ref());
-            self.add(layer, layer.combine, area, if is_finest { change } else { Any });
+            }
         }
     }
 }
@@ -335,10 +349,7 @@ fn risk_areas(new: &RiskLayer, old: &RiskLayer) -> Option<Vec<Rect>> {
     let is_same = match (source, old_source) {
         (RiskSource::Paint(new), RiskSource::Paint(old)) => return new.areas_that_differ(old),
         (RiskSource::Threats(new), RiskSource::Threats(old)) => {
-            let changed = changed_threats(new, old).into_iter();
-            return Some(
-                changed.flat_map(|(before, after)| reach(before).into_iter().chain(reach(after))).collect(),
-            );
+            return Some(areas_that_differ(new, old));
         }
         (RiskSource::Raster(new), RiskSource::Raster(old)) => Arc::ptr_eq(new, old),
         (RiskSource::Formula(new), RiskSource::Formula(old)) => new == old,
@@ -348,84 +359,6 @@ fn risk_areas(new: &RiskLayer, old: &RiskLayer) -> Option<Vec<Rect>> {
         ) => false,
     };
     is_same.then(Vec::new)
-}
-
-/// Where a threat is felt, if there is one.
-fn reach(threat: Option<&Threat>) -> Option<Rect> {
-    threat.filter(|threat| threat.peak > 0.0).map(Threat::reach)
-}
-
-/// The threats of two lists that differ: those before and after, at the same place of the list.
-fn changed_threats<'a>(new: &'a Threats, old: &'a Threats) -> Vec<(Option<&'a Threat>, Option<&'a Threat>)> {
-    if new.shares_list_with(old) {
-        return Vec::new();
-    }
-    let (new, old) = (new.list(), old.list());
-    if new.len() == old.len() {
-        let pairs = old.iter().zip(new).filter(|(before, after)| before != after);
-        return pairs.map(|(before, after)| (Some(before), Some(after))).collect();
-    }
-    // Some left or joined: what is equal at the beginning and at the end of both lists does not count.
-    let first = new.iter().zip(old).take_while(|(a, b)| a == b).count();
-    let (new, old) = (&new[first..], &old[first..]);
-    let last = new.iter().rev().zip(old.iter().rev()).take_while(|(a, b)| a == b).count();
-    let left = old[..old.len() - last].iter().map(|before| (Some(before), None));
-    left.chain(new[..new.len() - last].iter().map(|after| (None, Some(after)))).collect()
-}
-
-/// Returns the direction of a change of the values of a layer, `None` where they are equal. The transfer
-/// curve, the outline, threats and paint are not looked at here.
-fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<TargetChange> {
-    if new == old || (new.is_of_errors() && old.is_of_errors()) {
-        return None;
-    }
-    match new {
-        LayerKind::Paint(_) | LayerKind::Threats(_) => Some(Any),
-        LayerKind::Formula { quantity, formula } => match old {
-            LayerKind::Formula { quantity: old_quantity, formula: old_formula }
-                if quantity == old_quantity =>
-            {
-                Some(formula_change(*quantity, [formula, old_formula], combine))
-            }
-            _ => Some(Any),
-        },
-        LayerKind::Raster { source: _, reading: _ } => Some(Any),
-        LayerKind::Distance { to, at_zero, slope, range } => match old {
-            LayerKind::Distance { to: old_to, at_zero: old_at_zero, slope: old_slope, range: old_range }
-                if to == old_to && (range == old_range || combine == Combine::Finest) =>
-            {
-                // Beyond the range the diameter is infinite.
-                let is_increasing =
-                    *at_zero > 0.0 && *old_at_zero > 0.0 && *slope >= 0.0 && *old_slope >= 0.0;
-                direction([*at_zero, *slope, -range], [*old_at_zero, *old_slope, -old_range])
-                    .map(|change| if is_increasing { change } else { Any })
-            }
-            _ => Some(Any),
-        },
-        LayerKind::Band { source, between, diameter } => match old {
-            LayerKind::Band { source: old_source, between: old_between, diameter: old_diameter }
-                if source == old_source && between == old_between =>
-            {
-                let are_lengths = [diameter, old_diameter].iter().all(|d| **d > 0.0 && d.is_finite());
-                direction([*diameter], [*old_diameter]).map(|change| if are_lengths { change } else { Any })
-            }
-            _ => Some(Any),
-        },
-        LayerKind::Depth(_) | LayerKind::Straits(_) | LayerKind::FeatureSize(_) => Some(Any),
-        LayerKind::Surface(_) => None,
-    }
-}
-
-/// Returns the direction of a change of a formula: known where both are constant.
-fn formula_change(quantity: Quantity, [new, old]: [&Formula; 2], combine: Combine) -> TargetChange {
-    let (Quantity::Diameter, Some(new), Some(old)) = (quantity, new.constant(), old.constant()) else {
-        return Any;
-    };
-    let ask_alike = combine == Combine::Finest || (new.is_finite() && old.is_finite());
-    match direction([new], [old]) {
-        Some(change) if ask_alike && new > 0.0 && old > 0.0 => change,
-        _ => Any,
-    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::engine::CompiledLayer;
 use super::engine::cells::Cells;
 use super::size_field::SizeField;
-use super::{DepthRule, Layer, LayerId, LayerKind, PaintLayers, Quantity};
+use super::{Layer, LayerId, PaintLayers};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 
@@ -26,15 +26,16 @@ impl SizeField {
         let largest = h_max.min(self.longest());
         let level = self.level_of_diameter(largest, place).unwrap_or(0);
         let is_painted = |layer: &Layer| paint.get(layer.id).is_some() || layer.paints().is_none();
-        let is_asked = |layer: &&Layer| asks_for_diameters(layer) && is_painted(layer);
+        let is_asked = |layer: &&Layer| layer.kind.asks_for_diameters() && is_painted(layer);
         let candidates: Vec<LayerId> =
             self.spec().layers.iter().filter(is_asked).map(|layer| layer.id).collect();
         let layers =
-            self.compiled().iter().filter(|layer| layer.is_plain() && candidates.contains(&layer.id));
+            self.stack.layers().iter().filter(|layer| layer.is_plain() && candidates.contains(&layer.id));
         // A diameter may say the limit itself, and what no mesh can meet is an error.
         let says_limit = |layer: &CompiledLayer| {
             let diameter = layer.diameter_at(paint, place);
-            let is_diameter = self.spec().layers.iter().any(|one| one.id == layer.id && is_diameter(one));
+            let is_diameter =
+                self.spec().layers.iter().any(|one| one.id == layer.id && one.kind.says_diameters());
             diameter.is_nan() || diameter <= 0.0 || (is_diameter && diameter <= largest)
         };
         let is_idle = |layer: &&CompiledLayer| {
@@ -50,20 +51,6 @@ impl SizeField {
     }
 }
 
-/// Returns whether a layer is for diameters.
-fn asks_for_diameters(layer: &Layer) -> bool {
-    match &layer.kind {
-        LayerKind::Surface(_) => false,
-        LayerKind::Depth(depths) => depths.sizes().rule != DepthRule::Nothing,
-        _ => true,
-    }
-}
-
-/// Returns whether a layer is a formula for the diameter itself.
-fn is_diameter(layer: &Layer) -> bool {
-    matches!(layer.kind, LayerKind::Formula { quantity: Quantity::Diameter, .. })
-}
-
 /// Returns triangles that cover the squares of the coarse grid.
 fn coarse_triangles(lattice: &Lattice) -> impl Iterator<Item = [LatticePoint; 3]> {
     let ([columns, rows], side) = (lattice.cells(), 1 << lattice.halvings());
@@ -73,4 +60,28 @@ fn coarse_triangles(lattice: &Lattice) -> impl Iterator<Item = [LatticePoint; 3]
         let (low, high) = (at(x, y), at(x + 1, y + 1));
         [[low, at(x + 1, y), high], [low, high, at(x, y + 1)]]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::Formula;
+    use crate::geometry::Rect;
+    use crate::layers::{FormulaLayer, LayerKind, Quantity, SizeFieldSpec};
+
+    #[test]
+    fn layers_of_errors_are_not_said_to_change_nothing() {
+        let formula = Formula::parse("9 + x").unwrap();
+        let errors = FormulaLayer { quantity: Quantity::Error, formula: formula.clone() };
+        let spec = SizeFieldSpec {
+            layers: Layer::stack([errors.into(), LayerKind::target(formula)]),
+            transfer: Transfer::between(0.01, 1.0),
+            unasked: 1.0,
+            outline: None,
+            gradation: None,
+            projection: None,
+        };
+        let field = SizeField::new(spec, &Lattice::covering(Rect::UNIT, 0.25, 1000).unwrap());
+        assert_eq!(field.idle_layers(PaintLayers::blank()), [LayerId(1)]);
+    }
 }

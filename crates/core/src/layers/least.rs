@@ -23,11 +23,11 @@ pub struct LeastTarget {
 impl SizeField {
     /// Returns the least h̄ in the closed triangle with these corners: what the area rule compares with ℓ_b.
     pub fn least_within(&self, paint: &PaintLayers, corners: [LatticePoint; 3]) -> LeastTarget {
-        let least::Least { target, at, from } = least::least_within(self, paint, corners);
+        let least::Least { target, at, from } = least::least_within(&self.stack, paint, corners);
         // A point on the rim of a pixel may belong to its neighbour.
         let step = self.lattice().step();
         let nudged = [DVec2::ZERO, step, -step, step * DVec2::new(1.0, -1.0), step * DVec2::new(-1.0, 1.0)];
-        let decided = nudged.map(|by| self.ungraded_at(paint, from + 0.5 * by));
+        let decided = nudged.map(|by| self.stack.ungraded_at(paint, from + 0.5 * by));
         let decided = decided.into_iter().min_by(|a, b| a.target.total_cmp(&b.target));
         let (layer, limit) = decided.map_or((None, None), |decided| (decided.layer, decided.limit));
         LeastTarget { target, at, from, layer, limit }

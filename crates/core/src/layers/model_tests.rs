@@ -231,7 +231,7 @@ fn the_edge_of_a_plateau_that_is_just_satisfied_needs_few_evaluations() {
     for law in [ThreatLaw::Radar, ThreatLaw::Disc] {
         let list = (0..9).map(|n| Threat { at: dvec2(0.1 * f64::from(n), 0.43), range: 0.049, peak, law });
         let threats = Threats::new(list.collect()).unwrap();
-        let field = field(Layer::stack([LayerKind::Threats(threats)]), h_max, &lattice);
+        let field = field(Layer::stack([threats]), h_max, &lattice);
         let [leaves, made] = leaves_and_evaluations(&field, &lattice);
         assert!(made < 20 * leaves, "{law:?}: {made} evaluations for {leaves} triangles");
     }

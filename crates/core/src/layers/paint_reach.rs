@@ -61,7 +61,7 @@ impl Repainted<'_> {
     /// Returns the cells that changes of some cells can affect. `least` is the least diameter that has
     /// changed there, before or after, in world units.
     pub fn reach(&mut self, core: Cells, least: f64) -> Vec<Cells> {
-        let whole = self.known.whole(self.field);
+        let whole = self.known.whole(&self.field.stack);
         let mut parts = Vec::new();
         self.divide(whole, Core { cells: core, least }, &[whole], &mut parts);
         parts
@@ -79,7 +79,7 @@ impl Repainted<'_> {
         }
         let first = parts.len();
         let mut is_whole = true;
-        for quarter in self.known.divided(self.field, self.paint, square, LEAST_BITS) {
+        for quarter in self.known.divided(&self.field.stack, self.paint, square, LEAST_BITS) {
             is_whole &= self.divide(quarter, core, &sources, parts);
         }
         if is_whole {
@@ -98,7 +98,7 @@ impl Repainted<'_> {
         if PARTS_ACROSS * size.max_element() <= extent || !self.known.is_square_above(square, LEAST_BITS) {
             return true;
         }
-        let asked = self.known.diameters(self.field, self.paint, square)[0];
+        let asked = self.known.diameters(&self.field.stack, self.paint, square)[0];
         let diameter = if self.meets_changed(cells) { asked.min(core.least) } else { asked };
         // The area of a triangle is a quarter of the square of its diameter.
         size.element_product() <= FEW_TRIANGLES * 0.25 * diameter * diameter
@@ -124,16 +124,16 @@ impl Repainted<'_> {
         if limit >= field.longest() || self.greatest_unchanged(square, cells) <= limit {
             return None;
         }
-        let elsewhere = Elsewhere { field, paint, slope, changed: cores };
+        let elsewhere = Elsewhere { stack: &field.stack, paint, slope, changed: cores };
         most_from_elsewhere(&elsewhere, self.known, (cells, sources), carried)
     }
 
     /// Returns a diameter that h̄ does not exceed in a square, before and after.
     fn greatest_unchanged(&mut self, square: PartId, cells: &Cells) -> f64 {
         if !self.meets_changed(cells) {
-            return self.known.diameters(self.field, self.paint, square)[1];
+            return self.known.diameters(&self.field.stack, self.paint, square)[1];
         }
-        let of_others = |others| self.field.diameters(self.paint, cells, others).0[1];
+        let of_others = |others| self.field.stack.diameters(self.paint, cells, others).0[1];
         self.others.map_or(f64::INFINITY, of_others)
     }
 }

@@ -77,9 +77,9 @@ impl Reach<'_> {
     /// Returns the least and the greatest diameter before gradation in some cells, in world units.
     fn bounds(&self, cells: &Cells) -> [f64; 2] {
         let [old, new] = self.fields;
-        let [low, high] = old.diameters(self.paint, cells, Counting::ALL).0;
+        let [low, high] = old.stack.diameters(self.paint, cells, Counting::ALL).0;
         // Other limits are a step of their own, which changes h̄ everywhere.
-        let [new_low, new_high] = old.limited_diameters(new.asked_diameters(self.paint, cells).0);
+        let [new_low, new_high] = old.stack.limited_diameters(new.stack.asked_diameters(self.paint, cells).0);
         [low.min(new_low), high.max(new_high)]
     }
 

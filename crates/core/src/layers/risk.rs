@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::engine::asked::Share;
 use super::risk_pixels::{WithGaps, range_within};
-use super::{Combine, Coverage, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Threats};
+use super::{Combine, Coverage, Layer, Mask, PaintLayers, Threats};
 use crate::field::{Bounds, Formula};
 use crate::geometry::Rect;
 use crate::raster::{RasterPyramid, TiledRaster, ValueRange, ValueRanges};
@@ -34,8 +34,10 @@ pub(super) struct RiskLayer {
     pub source: RiskSource,
 }
 
+/// Where the risks of a layer come from.
 #[derive(Clone, Debug)]
-pub(super) enum RiskSource {
+pub enum RiskSource {
+    /// Painted pixels.
     Paint(TiledRaster),
     Raster(Arc<RasterPyramid>),
     Formula(Formula),
@@ -57,17 +59,7 @@ impl RiskField {
     /// Returns the risk of a stack, from the bottom to the top, with the painted pixels of its layers.
     pub fn new(layers: &[Layer], paint: &PaintLayers) -> Self {
         let of = |layer: &Layer| {
-            let source = match &layer.kind {
-                LayerKind::Paint(Quantity::Risk) => RiskSource::Paint(paint.get(layer.id)?.clone()),
-                LayerKind::Formula { quantity: Quantity::Risk, formula } => {
-                    RiskSource::Formula(formula.clone())
-                }
-                LayerKind::Raster { source, reading: RasterReading::Risk } => {
-                    RiskSource::Raster(source.raster.clone())
-                }
-                LayerKind::Threats(threats) => RiskSource::Threats(threats.clone()),
-                _ => return None,
-            };
+            let source = layer.kind.risks(paint.get(layer.id))?;
             Some(RiskLayer { combine: layer.combine, mask: layer.mask.clone(), source })
         };
         let layers = layers.iter().filter(|layer| layer.visible).filter_map(of).collect();
@@ -187,7 +179,7 @@ impl RiskSource {
     }
 
     /// `seen` has the pixels that count in a rectangle.
-    pub fn range(&self, rectangle: &Rect, seen: &Rect) -> Risks {
+    pub(super) fn range(&self, rectangle: &Rect, seen: &Rect) -> Risks {
         let of_bounds = |bounds: Bounds, none: f64| {
             let present = match (bounds.valid && bounds.least > none, bounds.greatest > none) {
                 (true, _) => Share::All,
@@ -221,7 +213,10 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::layers::{LayerId, RasterSource, Threat, ThreatLaw};
+    use crate::layers::{
+        LayerId, LayerKind, PaintLayer, Quantity, RasterLayer, RasterReading, RasterSource, Threat,
+        ThreatLaw, Threats,
+    };
     use crate::raster::{PixelGrid, Raster, Tile, TilePlace};
 
     fn layers(random: &mut fastrand::Rng) -> (Vec<Layer>, PaintLayers) {
@@ -237,7 +232,7 @@ mod tests {
                     let mut raster = TiledRaster::new(PixelGrid::filling(&Rect::UNIT, [16, 16]), 0.0);
                     raster.exchange(TilePlace { depth: 0, x: 0, y: 0 }, Some(tile.into()));
                     paint.insert(LayerId(id), raster);
-                    LayerKind::Paint(Quantity::Risk)
+                    LayerKind::paint(Quantity::Risk)
                 }
                 1 => LayerKind::risk(Formula::parse("x*y+0.3*sin(9*x)").unwrap()),
                 2 => {
@@ -246,7 +241,7 @@ mod tests {
                     let bounds = Rect::new(dvec2(0.1, 0.2), dvec2(0.8, 0.9));
                     let raster = RasterPyramid::new(Raster::from_values(bounds, [10, 6], values)).into();
                     let source = RasterSource { name: String::new(), raster };
-                    LayerKind::Raster { source, reading: RasterReading::Risk }
+                    RasterLayer { source, reading: RasterReading::Risk }.into()
                 }
                 _ => {
                     let threat = |random: &mut fastrand::Rng| Threat {
@@ -275,7 +270,7 @@ mod tests {
         let mut result = 0.0;
         for layer in layers {
             let Some(risk) = layer.risk_at(paint, p).filter(|risk| !risk.is_nan()) else { continue };
-            let asks = !matches!(layer.kind, LayerKind::Paint(_) | LayerKind::Threats(_)) || risk > 0.0;
+            let asks = !(layer.kind.is::<PaintLayer>() || layer.kind.is::<Threats>()) || risk > 0.0;
             let risk = risk.clamp(0.0, 1.0);
             result = match layer.combine {
                 _ if !asks => result,
@@ -316,7 +311,7 @@ mod tests {
     fn on_a_line_between_pixels_the_smaller_risk_counts() {
         let raster = Raster::from_values(Rect::UNIT, [2, 1], vec![0.75, 0.25]);
         let source = RasterSource { name: String::new(), raster: RasterPyramid::new(raster).into() };
-        let kind = LayerKind::Raster { source, reading: RasterReading::Risk };
+        let kind = LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk });
         let field = RiskField::new(&Layer::stack([kind]), PaintLayers::blank());
         assert_eq!(field.at(dvec2(0.5, 0.5)), 0.25);
         assert_eq!(field.at(dvec2(0.4, 0.5)), 0.75);
@@ -328,7 +323,7 @@ mod tests {
     fn on_the_border_of_a_domain_pixels_count_as_just_inside() {
         let raster = Raster::from_values(Rect::UNIT, [3, 2], vec![0.75; 6]);
         let source = RasterSource { name: String::new(), raster: RasterPyramid::new(raster).into() };
-        let mut layer = Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]);
+        let mut layer = Layer::stack([RasterLayer { source, reading: RasterReading::Risk }]);
         let ring = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
         for mask in [None, Some(Mask::new(&[vec![ring.to_vec()]]).unwrap())] {
             layer[0].mask = mask;
@@ -356,7 +351,7 @@ mod tests {
         ] {
             let raster = RasterPyramid::new(Raster::from_values(bounds, [2, 2], vec![0.75; 4]));
             let source = RasterSource { name: String::new(), raster: raster.into() };
-            let kind = LayerKind::Raster { source, reading: RasterReading::Risk };
+            let kind = LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk });
             let field = RiskField::new(&Layer::stack([kind]), PaintLayers::blank());
             assert_eq!(field.at(bounds.center()), 0.75);
             assert_eq!(field.at(at), 0.0);
@@ -369,7 +364,7 @@ mod tests {
         let stack = Layer::stack([
             LayerKind::constant(0.5),
             LayerKind::risk(Formula::constant_of(0.25)),
-            LayerKind::Paint(Quantity::Diameter),
+            LayerKind::paint(Quantity::Diameter),
         ]);
         assert_eq!(RiskField::new(&stack, PaintLayers::blank()).at(dvec2(0.5, 0.5)), 0.25);
         assert!(RiskField::new(&stack[..1], PaintLayers::blank()).is_empty());

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::targets::Ungraded;
+use super::engine::Ungraded;
 use super::{LayerId, PaintLayers, SizeField};
 use crate::geometry::Rect;
 use crate::raster::Raster;
@@ -34,11 +34,11 @@ impl SizeField {
             if x == 0 && !goes_on() {
                 return None;
             }
-            let Ungraded { target, layer, .. } = self.ungraded_at(paint, centers(x, y));
+            let Ungraded { target, layer, .. } = self.stack.ungraded_at(paint, centers(x, y));
             raster.set(x, y, target as f32);
             layers.push(layer);
         }
-        if let Some(slope) = self.slope() {
+        if let Some(slope) = self.stack.slope() {
             limit_slope(&mut raster, &mut layers, slope);
         }
         Some((raster, layers))

@@ -2,11 +2,11 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use super::engine::Nearby;
 use super::engine::cells::Cells;
 use super::engine::gradation::{GradedBounds, graded_bounds};
 use super::engine::parts::{PartId, Square};
 use super::engine::{CompiledLayer, KnownParts};
-use super::size_field::Nearby;
 use super::{PaintLayers, SizeField};
 use crate::earth::LEVELS;
 use crate::field::Transfer;
@@ -113,9 +113,9 @@ impl SizeField {
     /// Returns how many questions to the field are worth another thread, as far as its kind says that: with
     /// gradation or formulas, a few.
     pub(crate) fn questions_per_thread(&self) -> usize {
-        match self.slope() {
+        match self.stack.slope() {
             Some(_) => 16,
-            None if self.compiled().iter().all(CompiledLayer::has_pixels) => 8192,
+            None if self.stack.layers().iter().all(CompiledLayer::has_pixels) => 8192,
             None => 512,
         }
     }
@@ -139,7 +139,7 @@ impl SizeField {
     ) -> bool {
         let Some(square) = self.square_around(corners, level) else {
             squares.make_room();
-            return self.asks_with(&mut squares.known, paint, corners, level, None);
+            return self.stack.asks_with(&mut squares.known, paint, corners, level, None);
         };
         // Most triangles of a mesh are far from any change of h̄: one answer serves hundreds of them.
         let wider = square.around((square.bits + WIDER_BITS).min(u32::BITS - 1));
@@ -162,7 +162,7 @@ impl SizeField {
         let Some(square) = self.square_around(corners, level) else {
             squares.make_room();
             return LevelsWithin::UNKNOWN
-                .decided_at(level, || self.asks_with(&mut squares.known, paint, corners, level, None));
+                .decided_at(level, || self.stack.asks_with(&mut squares.known, paint, corners, level, None));
         };
         if let Some(levels) = self.levels_by_pixels(squares, paint, (corners, level), square) {
             return levels;
@@ -182,10 +182,10 @@ impl SizeField {
         (corners, level): ([LatticePoint; 3], u32),
         square: Square,
     ) -> Option<LevelsWithin> {
-        if !self.has_pixels_only() || squares.squares[place_of(square)].square == Some(square) {
+        if !self.stack.has_pixels_only() || squares.squares[place_of(square)].square == Some(square) {
             return None;
         }
-        let (asked, exceeds) = self.asked_by_pixels(paint, corners, level)?;
+        let (asked, exceeds) = self.stack.asked_by_pixels(paint, corners, level)?;
         Some(self.levels_between(asked, square).decided_at(level, || exceeds))
     }
 
@@ -212,7 +212,7 @@ impl SizeField {
     ) -> bool {
         let Settled { least_asked, sources, .. } = &squares.squares[place];
         let nearby = Nearby { least_asked: *least_asked, sources };
-        self.asks_with(&mut squares.known, paint, corners, level, Some(nearby))
+        self.stack.asks_with(&mut squares.known, paint, corners, level, Some(nearby))
     }
 
     /// Returns the dyadic square around a triangle, unless that has few lattice steps.
@@ -237,12 +237,12 @@ impl SizeField {
     #[cold]
     fn settle(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: Square) {
         squares.make_room();
-        let found = match self.slope() {
+        let found = match self.stack.slope() {
             None => self.settle_from(&[], &mut squares.known, paint, square),
             Some(_) => {
                 let bits = square.bits + WIDER_BITS;
                 if bits >= Square::whole(self.lattice().extent()).bits {
-                    let whole = squares.known.whole(self);
+                    let whole = squares.known.whole(&self.stack);
                     self.settle_from(&[whole], &mut squares.known, paint, square)
                 } else {
                     let wider = self.settled(squares, paint, square.around(bits));
@@ -271,19 +271,27 @@ impl SizeField {
             min: min.map(|v| (v - 1).max(0)),
             max: [0, 1].map(|axis: usize| (min[axis] + (1 << bits) + 1).min(limit[axis])),
         };
-        let ([least, greatest], _) = self.asked_diameters(paint, &cells);
+        let ([least, greatest], _) = self.stack.asked_diameters(paint, &cells);
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
         let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
         let lengths = self.edge_lengths();
         let [band, _] = lengths.bands_in(bits, [column, row]);
-        let bounds = match self.slope() {
+        let bounds = match self.stack.slope() {
             None => GradedBounds { least, greatest, sources: Vec::new() },
             Some(slope) => {
                 let is_level = |bounds: [f64; 2]| {
                     let [low, high] = bounds.map(|diameter| lengths.first_level_within(band, diameter));
                     low == high
                 };
-                graded_bounds(self, paint, known, (&cells, sources), slope, [least, greatest], is_level)
+                graded_bounds(
+                    &self.stack,
+                    paint,
+                    known,
+                    (&cells, sources),
+                    slope,
+                    [least, greatest],
+                    is_level,
+                )
             }
         };
         let levels = self.levels_between([bounds.least, bounds.greatest], square);

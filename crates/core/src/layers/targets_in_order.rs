@@ -35,7 +35,7 @@ impl<'a> TargetsInOrder<'a> {
     fn at(&mut self, point: DVec2) -> f64 {
         let invalid = match self.rule {
             RefinementRule::Area => None,
-            RefinementRule::Vertex => self.field.invalid_at(self.paint, point),
+            RefinementRule::Vertex => self.field.stack.invalid_at(self.paint, point),
         };
         let target = invalid.unwrap_or_else(|| self.valid_at(point));
         self.last = (target > 0.0 && target.is_finite()).then_some((point, target));
@@ -44,11 +44,14 @@ impl<'a> TargetsInOrder<'a> {
 
     fn valid_at(&mut self, point: DVec2) -> f64 {
         self.known.make_room();
-        let before = self.field.ungraded_at(self.paint, point).target;
-        let Some(slope) = self.field.slope() else { return before };
+        let before = self.field.stack.ungraded_at(self.paint, point).target;
+        let Some(slope) = self.field.stack.slope() else { return before };
         let bound =
             self.last.map_or(f64::INFINITY, |(last, target)| (target + slope * point.distance(last)) * SLACK);
-        self.field.graded(&mut self.known, self.paint, point, (slope, Accuracy::Close), before.min(bound)).0
+        self.field
+            .stack
+            .graded(&mut self.known, self.paint, point, (slope, Accuracy::Close), before.min(bound))
+            .0
     }
 }
 
@@ -78,7 +81,7 @@ impl SizeField {
         let chunks = values.par_chunks_mut(NODES).zip(mesh.nodes().par_chunks(NODES));
         chunks.try_for_each(|(values, nodes)| {
             check()?;
-            let own = known().pop().unwrap_or_else(|| self.known_for_points());
+            let own = known().pop().unwrap_or_else(|| self.stack.known_for_points());
             let mut targets = TargetsInOrder::new(own, self, paint, rule);
             for (value, &node) in values.iter_mut().zip(nodes) {
                 *value = targets.at(mesh.lattice().world_from_lattice(node));
@@ -116,7 +119,7 @@ mod tests {
             projection: None,
         };
         let (field, paint) = (SizeField::new(spec, &lattice), PaintLayers::blank());
-        let known = field.known_for_points();
+        let known = field.stack.known_for_points();
         let mut targets = TargetsInOrder::new(known, &field, paint, RefinementRule::Area);
         let mut random = fastrand::Rng::with_seed(6);
         let mut limited = 0;

@@ -315,7 +315,7 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::layers::{Layer, LayerKind, PaintLayers, RiskField};
+    use crate::layers::{Layer, PaintLayers, RiskField};
 
     fn threat(random: &mut fastrand::Rng) -> Threat {
         let range = [0.02, 0.1, 0.7][random.usize(..3)] * (0.1 + random.f64());
@@ -437,9 +437,7 @@ mod tests {
     }
 
     fn areas_that_differ(new: &Threats, old: &Threats) -> Vec<Rect> {
-        let risk = |threats: &Threats| {
-            RiskField::new(&Layer::stack([LayerKind::Threats(threats.clone())]), PaintLayers::blank())
-        };
+        let risk = |threats: &Threats| RiskField::new(&Layer::stack([threats.clone()]), PaintLayers::blank());
         risk(new).areas_that_differ(&risk(old)).unwrap()
     }
 

@@ -1,5 +1,6 @@
 //! Layers as they are added: with numbers that suit their data and the limits of h̄.
 
+use crate::layers::{BandLayer, DistanceLayer, RasterLayer};
 use std::sync::Arc;
 
 use super::{
@@ -19,7 +20,7 @@ impl LayerKind {
         let [least, greatest] = [range.least, range.greatest].map(f64::from);
         let third = (greatest - least) / 3.0;
         let diameter = (transfer.h_min * transfer.h_max).sqrt();
-        Some(Self::Band { source, between: [least + third, greatest - third], diameter })
+        Some(Self::Band(BandLayer { source, between: [least + third, greatest - third], diameter }))
     }
 
     /// Returns a raster through a curve that is finest where its values are nearest to 0, as in shallow
@@ -27,7 +28,7 @@ impl LayerKind {
     pub fn curve_of(source: RasterSource, transfer: &Transfer) -> Option<Self> {
         let values = source.raster.sorted_sample();
         let curve = ValueCurve::fine_at(FineAt::Zero, &values, transfer.h_min, transfer.h_max)?;
-        Some(Self::Raster { source, reading: RasterReading::Curve(Arc::new(curve)) })
+        Some(Self::Raster(RasterLayer { source, reading: RasterReading::Curve(Arc::new(curve)) }))
     }
 
     /// Returns depths that ask for thirty triangles in the length of a tide. Values are depths where none is
@@ -94,7 +95,7 @@ impl LayerKind {
 
     /// `h_min` at distance 0, growing by `slope` per unit of length without an end.
     pub fn distance_to(to: DistanceTo, transfer: &Transfer, slope: f64) -> Self {
-        Self::Distance { to, at_zero: transfer.h_min, slope, range: f64::INFINITY }
+        Self::Distance(DistanceLayer { to, at_zero: transfer.h_min, slope, range: f64::INFINITY })
     }
 
     /// Returns a corridor along lines through a domain of this extent, in world units: a fiftieth of it wide.
@@ -119,13 +120,14 @@ mod tests {
     #[test]
     fn a_band_holds_the_middle_third_of_the_finite_values() {
         let of = |values| LayerKind::band_of(source(values), &TRANSFER);
-        let Some(LayerKind::Band { between, diameter, .. }) = of([-30.0, f32::NAN, 60.0, f32::INFINITY])
+        let Some(LayerKind::Band(BandLayer { between, diameter, .. })) =
+            of([-30.0, f32::NAN, 60.0, f32::INFINITY])
         else {
             panic!("a band")
         };
         assert!((diameter - 0.04).abs() < 1e-15, "{diameter}");
         assert_eq!(between, [0.0, 30.0]);
-        let Some(LayerKind::Band { between, .. }) = of([5.0; 4]) else { panic!("a band") };
+        let Some(LayerKind::Band(BandLayer { between, .. })) = of([5.0; 4]) else { panic!("a band") };
         assert_eq!(between, [5.0, 5.0], "one value");
         assert_eq!(of([f32::NAN, f32::NAN, f32::INFINITY, f32::NEG_INFINITY]), None);
     }
@@ -133,7 +135,9 @@ mod tests {
     #[test]
     fn a_curve_spans_the_finite_values_and_is_finest_near_0() {
         let knots = |values| match LayerKind::curve_of(source(values), &TRANSFER)? {
-            LayerKind::Raster { reading: RasterReading::Curve(curve), .. } => Some(curve.knots().to_vec()),
+            LayerKind::Raster(RasterLayer { reading: RasterReading::Curve(curve), .. }) => {
+                Some(curve.knots().to_vec())
+            }
             other => panic!("{other:?}"),
         };
         let shore = vec![[-30.0, 0.16], [0.0, 0.01], [60.0, 0.16]];

@@ -9,7 +9,7 @@ use super::order::{MeasuredTriangle, triangle_key};
 use super::queue::{ErrorQueue, QueueGoal};
 use super::samples::{LayerSamples, SurfaceSamples};
 use crate::geometry::{Lattice, LatticePoint, NumberSet};
-use crate::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm};
+use crate::layers::{Layer, LayerId, Surface, SurfaceGoal, SurfaceNorm};
 use crate::mesh::Element;
 
 /// Share of the step between samples below which a triangle is not bisected. Between samples a surface is
@@ -80,11 +80,9 @@ impl SurfaceRule {
     /// Returns the condition for the samples of a stack of layers: by the largest differences that the layers
     /// allow. Other goals do not count, until [`Self::with_found`].
     pub fn new(samples: Arc<SurfaceSamples>, stack: &[Layer]) -> Self {
-        let surface = |id: LayerId| stack.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
-        let asked = samples.layers.iter().map(|layer| match surface(layer.id) {
-            Some(LayerKind::Surface(surface)) => LayerGoal::new(surface),
-            _ => LayerGoal::NOTHING,
-        });
+        let surface = |id: LayerId| stack.iter().find(|layer| layer.id == id)?.kind.get();
+        let asked =
+            samples.layers.iter().map(|layer| surface(layer.id).map_or(LayerGoal::NOTHING, LayerGoal::new));
         let (bisected, summed) = (Arc::default(), Vec::new());
         Self { asked: asked.collect(), samples, bisected, summed, exceeded_count: None }
     }

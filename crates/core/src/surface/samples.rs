@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::errors::ErrorLayers;
 use crate::geometry::Rect;
-use crate::layers::{Layer, LayerId, LayerKind, Mask, SurfaceSource};
+use crate::layers::{Layer, LayerId, Mask, Surface, SurfaceSource};
 use crate::raster::RasterPyramid;
 
 /// Farthest that a corner without a value may be from a pixel with one, in pixels.
@@ -173,10 +173,8 @@ impl SurfaceSamples {
 
 /// Returns what decides the samples of the visible surfaces of a stack.
 fn surfaces(stack: &[Layer]) -> impl Iterator<Item = (LayerId, &SurfaceSource, &Option<Mask>)> {
-    stack.iter().filter(|layer| layer.visible).filter_map(|layer| match &layer.kind {
-        LayerKind::Surface(surface) => Some((layer.id, &surface.source, &layer.mask)),
-        _ => None,
-    })
+    let visible = stack.iter().filter(|layer| layer.visible);
+    visible.filter_map(|layer| Some((layer.id, &layer.kind.get::<Surface>()?.source, &layer.mask)))
 }
 
 impl SurfaceSource {

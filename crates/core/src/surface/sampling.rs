@@ -10,7 +10,7 @@ use super::errors::ErrorLayers;
 use super::samples::{LayerSamples, SampleFigures, SampleGrid, SampleValues, SurfaceSamples};
 use crate::domain::DomainOnLattice;
 use crate::geometry::Lattice;
-use crate::layers::{Layer, LayerKind, PaintLayers, SurfaceSource};
+use crate::layers::{Layer, PaintLayers, Surface, SurfaceSource};
 use crate::mesh::Progress;
 use crate::raster::Raster;
 
@@ -165,7 +165,7 @@ impl SurfaceSampling {
 impl LayerSamples {
     /// Returns the samples of a layer, without values yet; `None` if it is not one of a surface.
     fn new(layer: &Layer, lattice: &Lattice) -> Option<Self> {
-        let LayerKind::Surface(surface) = &layer.kind else { return None };
+        let surface = layer.kind.get::<Surface>()?;
         let (grid, values, is_finite) = match &surface.source {
             SurfaceSource::Raster(source) => {
                 let raster = source.raster.raster();

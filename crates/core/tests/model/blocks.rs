@@ -6,8 +6,8 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Combine, Layer, LayerKind, PaintLayers, RasterReading, RasterSource, SettledSquares, SizeField,
-    SizeFieldSpec,
+    Combine, Layer, LayerKind, PaintLayers, RasterLayer, RasterReading, RasterSource, SettledSquares,
+    SizeField, SizeFieldSpec,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
@@ -195,7 +195,7 @@ fn random_field(random: &mut fastrand::Rng, lattice: &Lattice) -> SizeField {
     let source = RasterSource { name: "steps".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let formula = format!("{} + 0.2*hypot(x - {}, y - 0.3)", 0.004 + 0.02 * random.f64(), random.f64());
     let mut layers = Layer::stack([
-        LayerKind::Raster { source, reading: RasterReading::Diameter },
+        LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter }),
         LayerKind::target(Formula::parse(&formula).unwrap()),
         LayerKind::constant(0.02),
     ]);

@@ -44,7 +44,7 @@ fn layer(id: LayerId, sources: &[RasterSource], random: &mut Rng) -> Layer {
     let offset = [0.0, 0.0, 7.0][random.usize(..3)];
     let sizes = DepthSizes { positive: PositiveDepth::Up, offset, between: DepthSizes::ALL_WATER, rule };
     let source = sources[random.usize(..sources.len())].clone();
-    Layer { visible, mask, ..Layer::new(id, "depths", LayerKind::Depth(Depths::new(source, sizes))) }
+    Layer { visible, mask, ..Layer::new(id, "depths", Depths::new(source, sizes)) }
 }
 
 /// Changes a stack: another layer, one more or one less, or another order.
@@ -72,7 +72,7 @@ fn edits_of_depths_that_hide_others_are_followed_in_place() {
         let mut random = Rng::with_seed(seed);
         let sources: Vec<RasterSource> = (0..3).map(|number| source(number, &mut random)).collect();
         let mut layers: Vec<Layer> = (1..4).map(|n| layer(LayerId(n), &sources, &mut random)).collect();
-        while !layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_))) {
+        while !layers.iter().any(|layer| layer.kind.is::<Depths>()) {
             layers[0] = layer(LayerId(1), &sources, &mut random);
         }
         let settings = Settings {

@@ -7,7 +7,7 @@ use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPieces, BoundaryType, Domain, PieceChoice, Ring,
 };
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{Combine, DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{Combine, DistanceLayer, DistanceTo, Layer, LayerKind};
 use meshbrush_mesh::geometry::Rect;
 
 use crate::runs::seeds;
@@ -78,7 +78,7 @@ fn edits_of_pieces_change_the_mesh_in_place_and_it_is_the_one_of_the_distance() 
             let range = [f64::INFINITY, 0.15][random.usize(..2)];
             let (at_zero, slope) = (0.02 + 0.03 * random.f64(), 0.3);
             let to = DistanceTo::Pieces(chosen.clone());
-            let mut layers = Layer::stack([LayerKind::Distance { to, at_zero, slope, range }]);
+            let mut layers = Layer::stack([DistanceLayer { to, at_zero, slope, range }]);
             layers[0].combine = if random.u8(..4) == 0 { Combine::Replace } else { Combine::Finest };
             layers
         };
@@ -109,7 +109,9 @@ fn edits_of_pieces_change_the_mesh_in_place_and_it_is_the_one_of_the_distance() 
             assert_eq!(now, from_scratch.mesh().fingerprint(), "document {seed}");
             (within, all) = (within + usize::from(now != before), all + 1);
         }
-        let LayerKind::Distance { at_zero, slope, range, .. } = document.settings().layers[0].kind else {
+        let LayerKind::Distance(DistanceLayer { at_zero, slope, range, .. }) =
+            document.settings().layers[0].kind
+        else {
             panic!("a distance")
         };
         for _ in 0..20 {

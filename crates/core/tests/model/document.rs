@@ -15,7 +15,7 @@ use meshbrush_core::domain::{
     NamedPolygon, Polygon, Region, corners,
 };
 use meshbrush_core::field::{Formula, RefinementRule};
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterLayer, RasterReading, RasterSource};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, StrokePlan};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -70,7 +70,7 @@ fn with_base(base: LayerKind) -> Settings {
 
 fn risk_layer(name: &str, raster: RasterPyramid) -> LayerKind {
     let source = RasterSource { name: name.into(), raster: Arc::new(raster) };
-    LayerKind::Raster { source, reading: RasterReading::Risk }
+    RasterLayer { source, reading: RasterReading::Risk }.into()
 }
 
 fn settle(follower: &mut Follower, document: &mut Document) {

@@ -7,7 +7,9 @@ use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::{Projection, ProjectionKind};
 use meshbrush_core::field::{Formula, Transfer};
-use meshbrush_core::layers::{Combine, DistanceTo, Layer, LayerId, LayerKind, ShapeList, Shapes};
+use meshbrush_core::layers::{
+    Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, ShapeList, Shapes,
+};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::geometry::Rect;
 
@@ -48,12 +50,13 @@ fn kind(bounds: &Rect, random: &mut Rng) -> LayerKind {
         }
         _ => {
             let shapes = ShapeList { lines: vec![vec![at, point(bounds, random)]], ..ShapeList::default() };
-            LayerKind::Distance {
+            DistanceLayer {
                 to: DistanceTo::Shapes { name: "line".into(), shapes: Shapes::new(shapes, false).unwrap() },
                 at_zero: metres(random),
                 slope: 0.3 * random.f64(),
                 range: 0.2 * side * random.f64(),
             }
+            .into()
         }
     }
 }

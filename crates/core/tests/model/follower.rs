@@ -7,8 +7,8 @@ use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings
 use meshbrush_core::domain::{Domain, OutlineOnEarth, corners};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, ShapeList, Shapes, Threat, ThreatLaw,
-    Threats,
+    Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, ShapeList, Shapes, Threat,
+    ThreatLaw, Threats,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::geometry::Rect;
@@ -305,7 +305,8 @@ fn square(centre: DVec2, half: f64) -> Vec<DVec2> {
 #[test]
 fn an_edited_outline_changes_the_layer_that_measures_the_distance_to_it() {
     for range in [f64::INFINITY, 0.1] {
-        let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.01, slope: 0.2, range };
+        let distance =
+            LayerKind::Distance(DistanceLayer { to: DistanceTo::Outline, at_zero: 0.01, slope: 0.2, range });
         let (mut document, mut follower) = with_layers(Layer::stack([LayerKind::constant(0.2), distance]));
         let l_shape = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
         let l_shape = l_shape.map(DVec2::from).to_vec();
@@ -351,7 +352,7 @@ fn layers_as_small_as_the_squares_of_functions_leave_nothing_behind() {
         let points = ShapeList { points: vec![centre], ..ShapeList::default() };
         let to = DistanceTo::Shapes { name: String::new(), shapes: Shapes::new(points, false).unwrap() };
         let range = 0.1 * f64::from(n) * side + 0.5 * side;
-        let distance = LayerKind::Distance { to, at_zero: 2e-5, slope: 0.0, range };
+        let distance = LayerKind::Distance(DistanceLayer { to, at_zero: 2e-5, slope: 0.0, range });
         layers.push(Layer::new(LayerId(2), "distance", distance));
         let threat = Threat { at: centre, range, peak: 1.0, law: ThreatLaw::Disc };
         let threats = LayerKind::Threats(Threats::new(vec![threat]).unwrap());
@@ -376,9 +377,9 @@ fn layers_as_small_as_the_squares_of_functions_leave_nothing_behind() {
 fn paint_below_a_floor_is_followed_as_the_whole_stack_asks() {
     let mut layers = Layer::stack([
         LayerKind::constant(0.2),
-        LayerKind::Paint(Quantity::Risk),
+        LayerKind::paint(Quantity::Risk),
         LayerKind::constant(0.03),
-        LayerKind::Paint(Quantity::Diameter),
+        LayerKind::paint(Quantity::Diameter),
     ]);
     layers[2].combine = Combine::Floor;
     layers[2].mask = Some(Mask::new(&[vec![square(dvec2(0.4, 0.5), 0.1)]]).unwrap());

@@ -12,8 +12,8 @@ use meshbrush_core::build::{MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource,
-    SettledSquares, Shapes, SizeField, SizeFieldSpec,
+    Combine, DistanceLayer, DistanceTo, FormulaLayer, Layer, LayerId, LayerKind, PaintLayers, Quantity,
+    RasterLayer, RasterReading, RasterSource, SettledSquares, Shapes, SizeField, SizeFieldSpec,
 };
 use meshbrush_core::raster::{
     PixelGrid, Raster, RasterPyramid, TILE, Tile, TilePlace, TiledRaster, ValueRanges,
@@ -151,7 +151,7 @@ impl Case {
         };
         let diameter = reading(quantity, self.spec.transfer, Some(0.0));
         let diameter = Box::new(move |point| diameter(pixel_at(point)));
-        (LayerKind::Paint(quantity), Definition { combine: Combine::Finest, diameter, lines })
+        (LayerKind::paint(quantity), Definition { combine: Combine::Finest, diameter, lines })
     }
 }
 
@@ -194,7 +194,7 @@ fn formula(random: &mut Rng, transfer: Transfer) -> (LayerKind, Definition) {
     };
     let (inside, outside) = (number(), number());
     let text = format!("if(x < {a} / 256 and y > {b} / 256, {inside}, {outside})");
-    let kind = LayerKind::Formula { quantity, formula: Formula::parse(&text).unwrap() };
+    let kind = LayerKind::Formula(FormulaLayer { quantity, formula: Formula::parse(&text).unwrap() });
     let diameter = reading(quantity, transfer, None);
     let diameter = Box::new(move |point: DVec2| {
         let is_inside = point.x < f64::from(a) / 256.0 && point.y > f64::from(b) / 256.0;
@@ -227,7 +227,10 @@ fn raster(random: &mut Rng, transfer: Transfer) -> (LayerKind, Definition) {
         let index = || at[1] as usize * size[0] as usize + at[0] as usize;
         if is_inside { diameter(values[index()].into()) } else { f64::INFINITY }
     });
-    (LayerKind::Raster { source, reading: of }, Definition { combine: Combine::Finest, diameter, lines })
+    (
+        LayerKind::Raster(RasterLayer { source, reading: of }),
+        Definition { combine: Combine::Finest, diameter, lines },
+    )
 }
 
 /// ℓ_b of Eq. (1) in world units.
@@ -295,8 +298,8 @@ fn a_tiny_raster_in_a_huge_domain_needs_no_long_search() {
     let mut painted = TiledRaster::new(grid, f32::INFINITY);
     painted.exchange(TilePlace { depth: 0, x: 0, y: 0 }, Some(Arc::new(Tile::filled(0.01))));
     let kinds = [
-        LayerKind::Raster { source, reading: RasterReading::Diameter },
-        LayerKind::Paint(Quantity::Diameter),
+        LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter }),
+        LayerKind::paint(Quantity::Diameter),
     ];
     let [columns, rows] = lattice.cells().map(i64::from);
     let coarse = closure::coarse(columns, rows, lattice.cell_steps().into(), |_, _| true);
@@ -438,7 +441,7 @@ fn formula_of(text: &str) -> LayerKind {
 fn distance_to(line: [DVec2; 2]) -> LayerKind {
     let shapes = Shapes::lines(vec![line.to_vec()]).unwrap();
     let to = DistanceTo::Shapes { name: String::new(), shapes };
-    LayerKind::Distance { to, at_zero: 0.0625, slope: 0.25, range: f64::INFINITY }
+    DistanceLayer { to, at_zero: 0.0625, slope: 0.25, range: f64::INFINITY }.into()
 }
 
 /// Smooth formulas have one value on each cell of the lattice, that at its centre.

@@ -13,7 +13,7 @@ use meshbrush_mesh::geometry::{Lattice, Rect};
 /// one asks for 0.01 on the left of x = 0.5, and for 0.2 on the right.
 fn areas_of_click(at: DVec2, target: f64, gradation: Option<f64>) -> Vec<Rect> {
     let formula = Formula::parse("if(x < 0.5, 0.01, 0.2)").unwrap();
-    let layers = Layer::stack([LayerKind::target(formula), LayerKind::Paint(Quantity::Diameter)]);
+    let layers = Layer::stack([LayerKind::target(formula), LayerKind::paint(Quantity::Diameter)]);
     let (layer, lattice) = (layers[1].id, Lattice::covering(Rect::UNIT, 0.25, 1 << 28).unwrap());
     let transfer = Transfer::between(1e-9, 0.2);
     let spec = SizeFieldSpec { layers, transfer, unasked: 0.2, outline: None, gradation, projection: None };

@@ -8,7 +8,7 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::field::CostFormula;
-use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, RasterReading, RasterSource, RiskField};
+use meshbrush_core::layers::{Layer, PaintLayers, RasterLayer, RasterReading, RasterSource, RiskField};
 use meshbrush_core::path::{
     CertificateTask, CostDensity, FormulaCost, PathCertificate, PathError, PathMesh, PathRequest, Planner,
     Solution, Waypoint, WeightedCost, Weights,
@@ -167,7 +167,7 @@ fn no_bound_is_above_what_a_search_finds_around_a_narrow_valley() {
 fn the_border_of_a_domain_is_no_cheap_way_where_a_raster_of_risk_ends_there() {
     let raster = Raster::from_values(Rect::UNIT, [6, 7], vec![0.5; 42]);
     let source = RasterSource { name: String::new(), raster: RasterPyramid::new(raster).into() };
-    let stack = Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]);
+    let stack = Layer::stack([RasterLayer { source, reading: RasterReading::Risk }]);
     let risk = RiskField::new(&stack, PaintLayers::blank()).within(&Rect::UNIT);
     let density = WeightedCost::new(Weights { length: 1.0, risk: 10.0 }, risk).unwrap();
     for places in [[dvec2(0.1, 0.02), dvec2(0.9, 0.03)], [dvec2(0.0, 0.0), dvec2(1.0, 0.9)]] {

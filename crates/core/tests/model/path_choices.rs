@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::field::CostFormula;
-use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, RiskField, Threat, ThreatLaw, Threats};
+use meshbrush_core::layers::{Layer, PaintLayers, RiskField, Threat, ThreatLaw, Threats};
 use meshbrush_core::path::{
     Alternatives, CostDensity, Difference, FormulaCost, Front, PathMesh, PathRequest, Planner, WeightedCost,
     Weights,
@@ -20,7 +20,7 @@ fn mesh(diameter: f64) -> PathMesh {
 fn threats(places: &[(f64, f64)], range: f64) -> RiskField {
     let threat = |&(x, y): &(f64, f64)| Threat { at: dvec2(x, y), range, peak: 1.0, law: ThreatLaw::Disc };
     let threats = Threats::new(places.iter().map(threat).collect()).unwrap();
-    RiskField::new(&Layer::stack([LayerKind::Threats(threats)]), &PaintLayers::default())
+    RiskField::new(&Layer::stack([threats]), &PaintLayers::default())
 }
 
 #[test]

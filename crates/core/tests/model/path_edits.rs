@@ -49,7 +49,7 @@ fn document(random: &mut fastrand::Rng) -> Document {
         LayerKind::constant(0.2),
         LayerKind::risk(formula),
         LayerKind::Threats(threats),
-        LayerKind::Paint(Quantity::Risk),
+        LayerKind::paint(Quantity::Risk),
     ]);
     Document::new(Settings { layers, ..Settings::default() }, None).unwrap()
 }

@@ -9,7 +9,9 @@ use std::sync::Arc;
 use crate::runs::{prints_table, seeds};
 use glam::{DVec2, dvec2};
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, RiskField};
+use meshbrush_core::layers::{
+    Layer, LayerKind, Mask, PaintLayers, RasterLayer, RasterReading, RasterSource, RiskField,
+};
 use meshbrush_core::path::{
     CertificateTask, PathCertificate, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights,
 };
@@ -36,7 +38,7 @@ fn random_risk(random: &mut fastrand::Rng) -> RiskField {
             raster.set(x, y, hills.iter().map(hill).fold(0.0, f64::max) as f32);
         }
         let source = RasterSource { name: "hills".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-        LayerKind::Raster { source, reading: RasterReading::Risk }
+        RasterLayer { source, reading: RasterReading::Risk }.into()
     } else {
         let hill = |[height, width, x, y]: &[f64; 4]| format!("{height}*gauss(hypot(x-{x}, y-{y}), {width})");
         let hills: Vec<String> = hills.iter().map(hill).collect();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::many_directions::directions;
 use crate::runs::{prints_table, seeds};
 use glam::{DVec2, dvec2};
-use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, RiskField, Threat, ThreatLaw, Threats};
+use meshbrush_core::layers::{Layer, PaintLayers, RiskField, Threat, ThreatLaw, Threats};
 use meshbrush_core::path::{
     CertificateTask, CostDensity, PathCertificate, PathFigures, PathMesh, PathRequest, Planner, Solution,
     WeightedCost, Weights,
@@ -25,7 +25,7 @@ fn random_cost(random: &mut fastrand::Rng) -> WeightedCost {
         law: ThreatLaw::ALL[random.usize(..3)].0,
     };
     let threats = Threats::new((0..random.usize(5..12)).map(|_| threat(random)).collect()).unwrap();
-    let risk = RiskField::new(&Layer::stack([LayerKind::Threats(threats)]), PaintLayers::blank());
+    let risk = RiskField::new(&Layer::stack([threats]), PaintLayers::blank());
     WeightedCost::new(Weights { length: 1.0, risk: 10.0 }, risk).unwrap()
 }
 

@@ -9,8 +9,8 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, KeepOut, PathPlan, Setting, Settings};
 use meshbrush_core::domain::{Domain, MOST_CORNERS};
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat,
-    ThreatLaw, Threats,
+    DistanceLayer, DistanceTo, Layer, LayerKind, Mask, Quantity, RasterLayer, RasterReading, RasterSource,
+    ShapeList, Shapes, Threat, ThreatLaw, Threats,
 };
 use meshbrush_core::paint::{Brush, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -51,10 +51,8 @@ fn threats(count: usize) -> Threats {
 fn raster(side: u32) -> LayerKind {
     let values = (0..side * side).map(|n| (n % 97) as f32 / 100.0).collect();
     let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [side, side], values)));
-    LayerKind::Raster {
-        source: RasterSource { name: "slope.asc".into(), raster },
-        reading: RasterReading::Risk,
-    }
+    RasterLayer { source: RasterSource { name: "slope.asc".into(), raster }, reading: RasterReading::Risk }
+        .into()
 }
 
 /// Returns settings with as many points, threats, pixels and layers as files may have.
@@ -62,9 +60,9 @@ fn at_limits() -> Settings {
     let mask = || Mask::new(&[vec![coast(share_of(MOST_CORNERS), 0.4)]]).unwrap();
     let name = String::new();
     let to = DistanceTo::Shapes { name, shapes: line_of(share_of(MOST_CORNERS)) };
-    let distance = LayerKind::Distance { to, at_zero: 0.05, slope: 0.5, range: f64::INFINITY };
+    let distance = LayerKind::Distance(DistanceLayer { to, at_zero: 0.05, slope: 0.5, range: f64::INFINITY });
     let few = [LayerKind::constant(0.2), distance, LayerKind::Threats(threats(share_of(100_000)))];
-    let few = few.into_iter().chain([raster(10 * share_of(200) as u32), LayerKind::Paint(Quantity::Risk)]);
+    let few = few.into_iter().chain([raster(10 * share_of(200) as u32), LayerKind::paint(Quantity::Risk)]);
     let many = (0..share_of(2_000)).map(|n| LayerKind::constant(0.2 + n as f64));
     let mut layers = Layer::stack(few.chain(many));
     layers[1].mask = Some(mask());

@@ -9,7 +9,7 @@ use glam::dvec2;
 use meshbrush_core::document::{Background, Document, Edit, Follower, Picture, Setting, Settings, Stage};
 use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_core::layers::{
-    Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource, Threat, ThreatLaw, Threats,
+    Layer, LayerId, LayerKind, Quantity, RasterLayer, RasterReading, RasterSource, Threat, ThreatLaw, Threats,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, PathPoint};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -135,7 +135,7 @@ fn raster_layer() -> LayerKind {
     let values = (0..20 * 20).map(|n| (n % 7) as f32 / 7.0).collect();
     let raster = Raster::from_values(Rect::UNIT, [20, 20], values);
     let source = RasterSource { name: "slope.png".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-    LayerKind::Raster { source, reading: RasterReading::Risk }
+    RasterLayer { source, reading: RasterReading::Risk }.into()
 }
 
 fn cut(document: &mut Document, shape: CutShape) {
@@ -145,7 +145,7 @@ fn cut(document: &mut Document, shape: CutShape) {
 
 /// Returns a document with paint, a raster and a hole, and one edit of every kind.
 fn every_kind_of_edit() -> Document {
-    let kinds = [LayerKind::constant(0.3), raster_layer(), LayerKind::Paint(Quantity::Diameter)];
+    let kinds = [LayerKind::constant(0.3), raster_layer(), LayerKind::paint(Quantity::Diameter)];
     let settings = Settings { spacing: 0.25, layers: Layer::stack(kinds), ..Settings::default() };
     let mut document = Document::new(Settings { max_triangles: 20_000, ..settings }, None).unwrap();
     set(&mut document, Setting::SmallestDiameter(0.1));
@@ -157,7 +157,7 @@ fn every_kind_of_edit() -> Document {
     document.record();
 
     let mut layers = document.settings().layers.clone();
-    layers.push(Layer::new(LayerId(3), "Risk", LayerKind::Paint(Quantity::Risk)));
+    layers.push(Layer::new(LayerId(3), "Risk", LayerKind::paint(Quantity::Risk)));
     layers.push(Layer::new(LayerId(4), "Slope", raster_layer()));
     let threat = Threat { at: dvec2(0.1, 0.9), range: 0.2, peak: 0.9, law: ThreatLaw::Radar };
     let threats = LayerKind::Threats(Threats::new(vec![threat]).unwrap());
@@ -171,7 +171,7 @@ fn every_kind_of_edit() -> Document {
     let mirror = Mirror { x: Some(0.5), y: None };
     stroke(&mut document, Medium::Risk(0.9), mirror, &[(0.1, 0.2, 0.5), (1.0 / 3.0, 0.6, 1.0)]);
     document.copy_paint(LayerId(3), LayerId(6));
-    layers.push(Layer::new(LayerId(6), "Risk 2", LayerKind::Paint(Quantity::Risk)));
+    layers.push(Layer::new(LayerId(6), "Risk 2", LayerKind::paint(Quantity::Risk)));
     set(&mut document, Setting::Layers(layers.clone()));
     document.undo();
     stroke(

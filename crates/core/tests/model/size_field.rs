@@ -10,8 +10,8 @@ use meshbrush_core::build::{MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes,
-    SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats,
+    Combine, DistanceLayer, DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterLayer, RasterReading,
+    RasterSource, ShapeList, Shapes, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
@@ -37,7 +37,7 @@ fn field(layers: Vec<Layer>, gradation: Option<f64>) -> SizeField {
 
 fn distance_to(at: DVec2, at_zero: f64, slope: f64, range: f64) -> LayerKind {
     let shapes = Shapes::new(ShapeList { points: vec![at], ..ShapeList::default() }, false).unwrap();
-    LayerKind::Distance { to: DistanceTo::Shapes { name: "point".into(), shapes }, at_zero, slope, range }
+    DistanceLayer { to: DistanceTo::Shapes { name: "point".into(), shapes }, at_zero, slope, range }.into()
 }
 
 /// Returns the triangle with a right angle at the lower left corner of a dyadic square of 2^bits steps.
@@ -188,7 +188,7 @@ fn layers_of_any_size_are_seen_where_they_touch_a_triangle() {
             let kind = match round % 4 {
                 0 => {
                     let threat = Threat { at, range: 2.0 * size, peak: 1.0, law: ThreatLaw::Radar };
-                    LayerKind::Threats(Threats::new(vec![threat]).unwrap())
+                    Threats::new(vec![threat]).unwrap().into()
                 }
                 1 => LayerKind::constant(0.001),
                 2 => distance_to(at, 0.001, 0.1, size),
@@ -196,7 +196,7 @@ fn layers_of_any_size_are_seen_where_they_touch_a_triangle() {
                     let raster = Raster::from_values(square, [1, 1], vec![0.001]);
                     let source =
                         RasterSource { name: "pixel".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-                    LayerKind::Raster { source, reading: RasterReading::Diameter }
+                    RasterLayer { source, reading: RasterReading::Diameter }.into()
                 }
             };
             let mut layers = Layer::stack([kind]);
@@ -235,7 +235,7 @@ fn huge_pixels_far_from_the_domain_are_those_of_near_pixels() {
     let far = source(Rect::new(DVec2::ZERO, dvec2(2.0 * line, 2.0 * line)));
     let near = source(Rect::around(dvec2(line, line), 1.0));
     let fields = [far, near].map(|source| {
-        let kind = LayerKind::Raster { source, reading: RasterReading::Diameter };
+        let kind = LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter });
         let transfer = Transfer::between(1e-5, TRANSFER.h_max);
         let layers = Layer::stack([kind]);
         let spec = SizeFieldSpec {
@@ -287,7 +287,7 @@ fn the_diameter_for_a_risk_is_that_of_the_formula() {
     let values: Vec<f32> = (1..64).map(|n| n as f32 / 64.3).collect();
     let raster = Raster::from_values(Rect::UNIT, [63, 1], values.clone());
     let source = RasterSource { name: "risk".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-    let field = field(Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]), None);
+    let field = field(Layer::stack([RasterLayer { source, reading: RasterReading::Risk }]), None);
     for (n, risk) in values.iter().enumerate() {
         let found = field.target_at(PaintLayers::blank(), dvec2((n as f64 + 0.5) / 63.0, 0.5));
         let expected = TRANSFER.h_max * (TRANSFER.h_min / TRANSFER.h_max).powf(f64::from(*risk));
@@ -309,7 +309,7 @@ fn many_threats_that_lie_apart_ask_where_they_are_and_nowhere_else() {
             law: ThreatLaw::ALL[random.usize(..3)].0,
         };
         let threats: Vec<Threat> = (0..60).map(|_| threat(&mut random)).collect();
-        let layers = Layer::stack([LayerKind::Threats(Threats::new(threats.clone()).unwrap())]);
+        let layers = Layer::stack([Threats::new(threats.clone()).unwrap()]);
         let spec = SizeFieldSpec {
             layers,
             transfer,

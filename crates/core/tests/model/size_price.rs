@@ -6,7 +6,9 @@ use meshbrush_core::document::{
 };
 use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::field::{Formula, RefinementRule};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, ShapeList, Shapes, Threat, ThreatLaw, Threats};
+use meshbrush_core::layers::{
+    DistanceLayer, DistanceTo, Layer, LayerKind, ShapeList, Shapes, Threat, ThreatLaw, Threats,
+};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::mesh::Progress;
 
@@ -42,13 +44,13 @@ fn line() -> LayerKind {
     let line = vec![dvec2(0.05, 0.13), dvec2(0.4, 0.6), dvec2(0.93, 0.71)];
     let shapes = Shapes::new(ShapeList { lines: vec![line], ..ShapeList::default() }, false).unwrap();
     let to = DistanceTo::Shapes { name: String::new(), shapes };
-    LayerKind::Distance { to, at_zero: 0.0005, slope: 0.2, range: 2.0 }
+    DistanceLayer { to, at_zero: 0.0005, slope: 0.2, range: 2.0 }.into()
 }
 
 fn threats() -> LayerKind {
     let at = [[0.2, 0.3], [0.7, 0.8], [0.6, 0.2]];
     let threat = |at| Threat { at, range: 0.2, peak: 1.0, law: ThreatLaw::ALL[0].0 };
-    LayerKind::Threats(Threats::new(at.map(|[x, y]| threat(dvec2(x, y))).to_vec()).unwrap())
+    Threats::new(at.map(|[x, y]| threat(dvec2(x, y))).to_vec()).unwrap().into()
 }
 
 struct Coast(NamedPolygon);

@@ -9,8 +9,8 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource, Surface,
-    SurfaceGoal, SurfaceNorm, SurfaceSource,
+    FormulaLayer, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterLayer, RasterReading,
+    RasterSource, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
 };
 use meshbrush_core::paint::{Brush, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -43,7 +43,7 @@ fn built_with(settings: &Settings, paint: &PaintLayers, max_level: Option<u32>) 
 fn of_raster(raster: Raster, goal: SurfaceGoal) -> LayerKind {
     let raster = Arc::new(RasterPyramid::new(raster));
     let source = SurfaceSource::Raster(RasterSource { name: "heights.asc".into(), raster });
-    LayerKind::Surface(Surface { source, goal, norm: SurfaceNorm::Largest })
+    Surface { source, goal, norm: SurfaceNorm::Largest }.into()
 }
 
 /// Every conforming mesh down to a level, from the coarsest.
@@ -231,7 +231,7 @@ impl ErrorCase {
         match random.u8(..3) {
             0 => {
                 let formula = Formula::parse(&format!("if(x < {edge}, {error}, inf)")).unwrap();
-                let kind = LayerKind::Formula { quantity: Quantity::Error, formula };
+                let kind = LayerKind::Formula(FormulaLayer { quantity: Quantity::Error, formula });
                 Self { kind, paint: blank, at: Box::new(move |p| (p.x < edge).then_some(error)) }
             }
             1 => {
@@ -240,7 +240,7 @@ impl ErrorCase {
                 let raster = Raster::from_values(Rect::UNIT, [2, 2], values.clone());
                 let source =
                     RasterSource { name: "errors.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-                let kind = LayerKind::Raster { source, reading: RasterReading::Error };
+                let kind = LayerKind::Raster(RasterLayer { source, reading: RasterReading::Error });
                 let at = move |p: DVec2| {
                     let cell = |x: f64| usize::from(x >= 0.5);
                     let inside = (0.0..=1.0).contains(&p.x) && (0.0..=1.0).contains(&p.y);
@@ -250,7 +250,7 @@ impl ErrorCase {
                 Self { kind, paint: blank, at: Box::new(at) }
             }
             _ => {
-                let kind = LayerKind::Paint(Quantity::Error);
+                let kind = LayerKind::paint(Quantity::Error);
                 let (center, radius) = (dvec2(random.f64(), random.f64()), 0.15 + 0.4 * random.f64());
                 let mut settings =
                     settings(Domain::rectangle(Rect::new(DVec2::splat(-1.0), DVec2::splat(3.0))), 4.0, []);

@@ -12,8 +12,8 @@ use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, OutlineOnEarth, Polygon, corners};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
-    Shapes, SizeFieldSpec, Threat, ThreatLaw, Threats, ValueCurve,
+    BandLayer, Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterLayer,
+    RasterReading, RasterSource, ShapeList, Shapes, SizeFieldSpec, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -133,13 +133,13 @@ fn layer(random: &mut Rng, id: u32, map: &Map) -> Layer {
             let raster = Arc::new(RasterPyramid::new(Raster::from_values(bounds, [8, 8], values)));
             let source = RasterSource { name: "pixels".into(), raster };
             match random.usize(..3) {
-                0 => LayerKind::Raster { source, reading: RasterReading::Diameter },
+                0 => LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter }),
                 1 => {
                     let knots = vec![[0.1 * s, 0.02 * s], [0.2 * s, 0.2 * s]];
                     let curve = Arc::new(ValueCurve::new(knots).unwrap());
-                    LayerKind::Raster { source, reading: RasterReading::Curve(curve) }
+                    RasterLayer { source, reading: RasterReading::Curve(curve) }.into()
                 }
-                _ => LayerKind::Band { source, between: [0.1 * s, 0.2 * s], diameter: 0.03 * s },
+                _ => LayerKind::Band(BandLayer { source, between: [0.1 * s, 0.2 * s], diameter: 0.03 * s }),
             }
         }
         3 => {
@@ -159,7 +159,7 @@ fn layer(random: &mut Rng, id: u32, map: &Map) -> Layer {
             let to = DistanceTo::Shapes { name: String::new(), shapes };
             let slope = 0.2 + random.f64();
             let range = if random.bool() { f64::INFINITY } else { s * 2.0 * length(random) };
-            LayerKind::Distance { to, at_zero: s * diameter, slope, range }
+            DistanceLayer { to, at_zero: s * diameter, slope, range }.into()
         }
     };
     let combine = [Combine::Finest, Combine::Finest, Combine::Floor, Combine::Replace][random.usize(..4)];
@@ -180,12 +180,12 @@ fn spec(seed: u64, map: &Map, domain: &Domain) -> SizeFieldSpec {
         layers.push(layer(&mut random, id, map));
     }
     if random.usize(..3) == 0 {
-        let distance = LayerKind::Distance {
+        let distance = LayerKind::Distance(DistanceLayer {
             to: DistanceTo::Outline,
             at_zero: 0.04 * s,
             slope: 0.5,
             range: f64::INFINITY,
-        };
+        });
         layers.push(Layer::new(LayerId(9), "outline", distance));
     }
     SizeFieldSpec {
@@ -328,8 +328,8 @@ fn a_layer_that_asks_for_nothing_changes_nothing() {
         let fine = || LayerKind::constant(0.001);
         let layer = |kind| Layer::new(LayerId(50), "nothing", kind);
         let neutral = [
-            layer(LayerKind::Paint(Quantity::Risk)),
-            layer(LayerKind::Paint(Quantity::Diameter)),
+            layer(LayerKind::paint(Quantity::Risk)),
+            layer(LayerKind::paint(Quantity::Diameter)),
             layer(LayerKind::constant(f64::INFINITY)),
             layer(LayerKind::target(infinite)),
             layer(LayerKind::Threats(Threats::new(vec![threat]).unwrap())),

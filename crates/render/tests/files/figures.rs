@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, Settings, Stage};
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{Layer, LayerKind, Quantity, RasterReading, RasterSource};
+use meshbrush_core::layers::{Layer, LayerKind, Quantity, RasterLayer, RasterReading, RasterSource};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_io::io::png::{self as pictures, Behind};
@@ -44,11 +44,11 @@ fn figures_of_a_large_raster() {
     fs::remove_file(file).unwrap();
 
     let source = RasterSource { name: "large.png".into(), raster: pyramid };
-    let raster = LayerKind::Raster { source, reading: RasterReading::Risk };
+    let raster = LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk });
     let settings = Settings {
         transfer: Transfer::between(5e-4, 0.05),
         spacing: 0.05,
-        layers: Layer::stack([raster, LayerKind::Paint(Quantity::Risk)]),
+        layers: Layer::stack([raster, LayerKind::paint(Quantity::Risk)]),
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();
@@ -82,7 +82,7 @@ fn figures_of_a_stroke_at_4096_times_zoom() {
     for (name, zoom) in [("at fit", 1.0), ("at 4,096 times zoom", 4096.0)] {
         let settings = Settings {
             transfer: Transfer::between(0.004 / zoom, 0.5),
-            layers: Layer::stack([LayerKind::Paint(Quantity::Diameter)]),
+            layers: Layer::stack([LayerKind::paint(Quantity::Diameter)]),
             ..Settings::default()
         };
         let mut document = Document::new(settings, None).unwrap();

@@ -88,7 +88,7 @@ fn read_recording(bytes: &[u8]) -> Result<(), String> {
 
 /// Returns a recording of a stroke and its undo on a few coarse triangles.
 fn recording_sample() -> Vec<u8> {
-    let layers = Layer::stack([LayerKind::Paint(Quantity::Diameter)]);
+    let layers = Layer::stack([LayerKind::paint(Quantity::Diameter)]);
     let settings = Settings { spacing: 0.9, max_triangles: 500, layers, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     document.record();

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use meshbrush_core::document::{Example, ExampleData};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
-use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::layers::{Layer, LayerKind, RasterLayer, RasterReading, RasterSource};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::png::{Behind, read_metered as read_png};
 use meshbrush_io::io::project::{self, Project};
@@ -79,7 +79,8 @@ fn large_project() -> Project {
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
     let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [500, 400], values)));
     let source = RasterSource { name: "noise.png".into(), raster };
-    project.settings.layers = Layer::usual(LayerKind::Raster { source, reading: RasterReading::Risk });
+    project.settings.layers =
+        Layer::usual(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }));
     project
 }
 

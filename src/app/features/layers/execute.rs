@@ -9,7 +9,7 @@ use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayer};
 
 impl Feature for LayerEditor {
     type Command = LayerCommand;
@@ -85,7 +85,7 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     let edits_a_kind = ctx.layer_kinds.iter().any(|kind| kind.tool == Some(chosen));
     match kind_of(ctx.layer_kinds, kind).tool {
         Some(tool) if chosen.brush.is_some() => ctx.tools.select(tool),
-        None if edits_a_kind && matches!(kind, LayerKind::Paint(_)) => ctx.tools.select_brush(),
+        None if edits_a_kind && kind.is::<PaintLayer>() => ctx.tools.select_brush(),
         _ => {}
     }
 }
@@ -107,7 +107,7 @@ fn add_band(ctx: &mut Ctx<'_>) {
     let document = ctx.session.document();
     let Settings { layers, transfer, .. } = document.settings();
     let all = document.active_layer().into_iter().chain(layers.iter().rev());
-    let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
+    let Some(source) = all.map(|layer| &layer.kind).find_map(|kind| kind.raster_source()) else {
         return ctx.send(Command::from(FileCommand::Ask(&OPEN_BAND)));
     };
     match LayerKind::band_of(source.clone(), transfer) {
@@ -168,7 +168,7 @@ fn edit_layer(layers: &mut [Layer], id: LayerId, edit: impl FnOnce(&mut Layer)) 
 
 /// Changes what the distance of a layer is measured to. Other kinds of layers stay as they are.
 fn measure_to(layer: &mut Layer, target: DistanceTo) {
-    if let LayerKind::Distance { to, .. } = &mut layer.kind {
+    if let Some(DistanceLayer { to, .. }) = layer.kind.get_mut() {
         *to = target;
     }
 }

@@ -10,7 +10,9 @@ use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, w
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, ShapeList, Shapes};
+use meshbrush_core::layers::{
+    DistanceTo, LayerKind, RasterLayer, RasterReading, RasterSource, ShapeList, Shapes,
+};
 use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues};
 use meshbrush_io::io::layers::{
     LoadedRaster, RasterError, RasterFile, RasterFrame, RasterLoader, in_direction,
@@ -36,14 +38,14 @@ pub fn way_to_metres(unit: LengthUnit) -> &'static str {
 /// Reads a picture or a grid, and adds it as a layer of risk.
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Risk, |source, _| {
-        Some(LayerKind::Raster { source, reading: RasterReading::Risk })
+        Some(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }))
     });
 }
 
 /// Reads a picture or a grid, and adds it as a layer of target diameters.
 pub fn load_diameters(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Diameter, |source, _| {
-        Some(LayerKind::Raster { source, reading: RasterReading::Diameter })
+        Some(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter }))
     });
 }
 

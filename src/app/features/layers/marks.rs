@@ -4,7 +4,7 @@ use eframe::egui::{Color32, Pos2, Stroke};
 use glam::DVec2;
 
 use crate::app::kit::{FrameState, OverMesh, marks};
-use meshbrush_core::layers::{LayerKind, ShapeList};
+use meshbrush_core::layers::{DistanceLayer, LayerKind, ShapeList};
 use meshbrush_ui::theme::tokens;
 
 /// Width of the outline of a mask and of shapes, in points.
@@ -18,7 +18,7 @@ const MOST_POINTS: usize = 2_000;
 /// white. A hidden layer has neither.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let Some(layer) = state.session.document().active_layer().filter(|layer| layer.visible) else { return };
-    if let LayerKind::Distance { to, .. } = &layer.kind
+    if let Some(DistanceLayer { to, .. }) = layer.kind.get()
         && let Some(shapes) = to.shapes()
     {
         paint_shapes(over, shapes.list());

@@ -100,12 +100,10 @@ fn key(layer: &Layer, opened: DocumentId, document: &Document, colors: &LevelCol
 
 /// Returns the layers of depths that give a formula its depths. They ask for nothing themselves.
 fn depths_for(layer: &Layer, settings: &Settings) -> Vec<Layer> {
-    let without_sizes = |layer: &Layer| match &layer.kind {
-        LayerKind::Depth(depths) => {
-            let sizes = DepthSizes { rule: DepthRule::Nothing, ..*depths.sizes() };
-            Some(Layer { kind: LayerKind::Depth(depths.with_sizes(sizes)), ..layer.clone() })
-        }
-        _ => None,
+    let without_sizes = |layer: &Layer| {
+        let depths = layer.kind.get::<Depths>()?;
+        let sizes = DepthSizes { rule: DepthRule::Nothing, ..*depths.sizes() };
+        Some(Layer { kind: depths.with_sizes(sizes).into(), ..layer.clone() })
     };
     let layers: &[Layer] = if layer.kind.uses_depth() { &settings.layers } else { &[] };
     layers.iter().filter_map(without_sizes).collect()

@@ -7,7 +7,7 @@ use super::kinds::kind_of;
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, remark};
-use meshbrush_core::layers::{Combine, Layer, LayerKind};
+use meshbrush_core::layers::{Combine, Layer, Surface};
 use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, segmented};
 
 /// The name of the group of choices.
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.push_id(layer.id.0, |ui| {
             ui.add_enabled_ui(!layer.locked, |ui| {
                 // A surface has no diameters to combine.
-                if !matches!(layer.kind, LayerKind::Surface(_)) && !layer.is_of_errors() {
+                if !layer.kind.is::<Surface>() && !layer.is_of_errors() {
                     combine_rows(ui, layer, commands);
                 }
                 (kind_of(state.layer_kinds, &layer.kind).parameters)(ui, state, layer, commands);

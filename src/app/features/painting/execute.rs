@@ -196,7 +196,7 @@ fn offer_paint_layer(problem: &NoPaintLayer, ctx: &mut Ctx<'_>) {
         NoPaintLayer::Hidden { id, .. } => ("Show the layer", LayerCommand::Show(*id, true)),
         NoPaintLayer::Missing(quantity) => {
             let quantity = quantity.unwrap_or(ctx.tools.kind.quantity());
-            ("Add a paint layer", LayerCommand::Add(Box::new(LayerKind::Paint(quantity))))
+            ("Add a paint layer", LayerCommand::Add(Box::new(LayerKind::paint(quantity))))
         }
     };
     let offer = Offer { label, command: Command::from(command) };

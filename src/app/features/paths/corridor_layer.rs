@@ -4,7 +4,7 @@ use super::{NO_PATH, Paths};
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::Ctx;
 use meshbrush_core::document::Settings;
-use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
 use meshbrush_ui::widgets::shown_keys::with_keys;
 
 impl Paths {
@@ -21,11 +21,8 @@ impl Paths {
     /// Moves a corridor to the paths as they are. Its numbers stay.
     pub(super) fn take_paths(&mut self, id: LayerId, ctx: &mut Ctx<'_>) {
         let layers = &ctx.session.document().settings().layers;
-        let corridor = layers.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
-        let Some(LayerKind::Distance { to: DistanceTo::Corridor { width, .. }, .. }) = corridor else {
-            return;
-        };
-        let width = *width;
+        let corridor = layers.iter().find(|layer| layer.id == id).and_then(|layer| layer.kind.get());
+        let Some(&DistanceLayer { to: DistanceTo::Corridor { width, .. }, .. }) = corridor else { return };
         if let Some(lines) = self.current_paths(ctx) {
             ctx.send(Command::from(LayerCommand::MeasureTo(id, DistanceTo::Corridor { lines, width })));
         }

@@ -5,13 +5,13 @@ use eframe::egui::Ui;
 use super::PathCommand;
 use crate::app::command::Command;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, button_rows, range_rows, remark, set_kind_once};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
 use meshbrush_ui::widgets::{Icon, NumberRow};
 
 /// A strip along the paths as they were when they were taken.
 pub static CORRIDOR: LayerKindRow = LayerKindRow {
     place: 5,
-    is_of: |kind| matches!(kind, LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. }),
+    is_of: |kind| kind.get().is_some_and(|distance: &DistanceLayer| distance.to.is_corridor()),
     icon: Icon::PATH,
     tool: None,
     additions: &[Addition {
@@ -22,7 +22,7 @@ pub static CORRIDOR: LayerKindRow = LayerKindRow {
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Distance { to, at_zero, slope, range } = &layer.kind else { return };
+    let Some(DistanceLayer { to, at_zero, slope, range }) = layer.kind.get() else { return };
     let DistanceTo::Corridor { lines, width } = to else { return };
     let (mut at_zero, mut slope, mut range, mut width) = (*at_zero, *slope, *range, *width);
     let (positive, unit) = (f64::MIN_POSITIVE..=f64::MAX, state.unit().symbol());
@@ -37,7 +37,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     changed |= range_rows(ui, state, &mut range);
     if changed {
         let to = DistanceTo::Corridor { lines: lines.clone(), width };
-        set_kind_once(layer, LayerKind::Distance { to, at_zero, slope, range }, commands);
+        set_kind_once(layer, DistanceLayer { to, at_zero, slope, range }, commands);
     }
     remark(ui, "The corridor stays where the paths were when it was made.");
     let take = Command::from(PathCommand::MoveCorridor(layer.id));

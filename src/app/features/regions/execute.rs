@@ -10,7 +10,7 @@ use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::session::Session;
 use meshbrush_core::document::{Drawing, DrawnPart, DrawnShape, KeepOut, PathPlan, Setting, Settings};
 use meshbrush_core::domain::CutShape;
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
 
 impl Feature for Regions {
     type Command = RegionCommand;
@@ -87,8 +87,9 @@ fn layer_to_draw_on(session: &Session) -> Result<&Layer, &'static str> {
 
 /// Returns the selected layer, if it measures the distance to shapes.
 fn layer_of_shapes(session: &Session) -> Result<Option<&Layer>, &'static str> {
-    let has_shapes =
-        |layer: &&Layer| matches!(layer.kind, LayerKind::Distance { to: DistanceTo::Shapes { .. }, .. });
+    let has_shapes = |layer: &&Layer| {
+        matches!(layer.kind.get(), Some(DistanceLayer { to: DistanceTo::Shapes { .. }, .. }))
+    };
     match session.document().active_layer().filter(has_shapes) {
         Some(layer) if layer.locked => Err("The selected layer is locked: unlock it to draw its shapes."),
         layer => Ok(layer),

@@ -16,7 +16,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::DrawnShape;
 use meshbrush_core::domain::{CutShape, corners};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, ShapeList};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, ShapeList};
 use meshbrush_mesh::geometry::Rect;
 
 const SQUARE: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.5, 0.2), dvec2(0.5, 0.5), dvec2(0.2, 0.5)];
@@ -61,7 +61,9 @@ fn mask_area(window: &Window) -> f64 {
 
 fn shapes(layer: &Layer) -> Option<&ShapeList> {
     match &layer.kind {
-        LayerKind::Distance { to: DistanceTo::Shapes { shapes, .. }, .. } => Some(shapes.list()),
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Shapes { shapes, .. }, .. }) => {
+            Some(shapes.list())
+        }
         _ => None,
     }
 }

@@ -77,7 +77,7 @@ impl ThreatEditor {
             ThreatGrip::Ring => Threat { range: to.distance(before.at), ..before },
         };
         match threats.set(number, threat) {
-            Ok(()) => ctx.session.set_layer_kind(id, LayerKind::Threats(threats)),
+            Ok(()) => ctx.session.set_layer_kind(id, threats),
             Err(error) => ctx.session.report(error.to_string()),
         }
     }
@@ -137,7 +137,7 @@ fn editable_threats(ctx: &mut Ctx<'_>) -> Option<(LayerId, Threats)> {
 
 fn replace_threats(id: LayerId, list: Vec<Threat>, ctx: &mut Ctx<'_>) {
     match Threats::new(list) {
-        Ok(threats) => ctx.session.set_layer_kind(id, LayerKind::Threats(threats)),
+        Ok(threats) => ctx.session.set_layer_kind(id, threats),
         Err((_, error)) => ctx.session.report(error.to_string()),
     }
 }

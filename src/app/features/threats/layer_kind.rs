@@ -13,18 +13,15 @@ use meshbrush_ui::widgets::{Icon, NumberRow, ValueRow, format};
 /// Places with a risk around them.
 pub static THREATS_KIND: LayerKindRow = LayerKindRow {
     place: 3,
-    is_of: |kind| matches!(kind, LayerKind::Threats(_)),
+    is_of: |kind| kind.is::<Threats>(),
     icon: Icon::THREATS,
     tool: Some(&THREATS),
-    additions: &[Addition {
-        title: "threats",
-        command: |_| add_layer(LayerKind::Threats(Threats::default())),
-    }],
+    additions: &[Addition { title: "threats", command: |_| add_layer(Threats::default()) }],
     parameters,
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Threats(threats) = &layer.kind else { return };
+    let Some(threats) = layer.kind.get::<Threats>() else { return };
     let count = threats.list().len();
     let text = format::count(count as u64);
     ValueRow::new("Threats", &text).help("Places with a risk around them, in this layer.").show(ui);

@@ -18,7 +18,7 @@ use layer_kind::THREATS_KIND;
 pub use tool::THREATS;
 
 use meshbrush_core::document::Document;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, Threats};
+use meshbrush_core::layers::{Layer, LayerId, Threats};
 
 /// What the window keeps of threats; they are in their layers.
 #[derive(Default)]
@@ -50,5 +50,5 @@ impl ThreatEditor {
 /// The selected layer and its threats, if it is a layer of threats.
 fn threats_layer(document: &Document) -> Option<(&Layer, &Threats)> {
     let layer = document.active_layer()?;
-    if let LayerKind::Threats(threats) = &layer.kind { Some((layer, threats)) } else { None }
+    if let Some(threats) = layer.kind.get::<Threats>() { Some((layer, threats)) } else { None }
 }

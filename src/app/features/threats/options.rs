@@ -33,7 +33,7 @@ pub fn set_threat(
 ) {
     let mut threats = threats.clone();
     match threats.set(number, threat) {
-        Ok(()) => set_kind(layer, LayerKind::Threats(threats), commands),
+        Ok(()) => set_kind(layer, threats, commands),
         Err(error) => commands.push(Command::from(ShellCommand::Report(error.to_string()))),
     }
 }

@@ -26,12 +26,10 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
         let extent = list.iter().map(Threat::reach).reduce(|a, b| a.union(&b));
         let over = empty.zip(extent).and_then(|(empty, extent)| empty.over(&file, extent, LengthUnit::None));
         match (Threats::new(list), over) {
-            (Ok(threats), Some(settings)) => {
-                match show_with_layer(settings, LayerKind::Threats(threats), &file, &[]) {
-                    Ok(commands) => Outcome::PartRead(commands),
-                    Err(problem) => Outcome::NotRead(problem),
-                }
-            }
+            (Ok(threats), Some(settings)) => match show_with_layer(settings, threats, &file, &[]) {
+                Ok(commands) => Outcome::PartRead(commands),
+                Err(problem) => Outcome::NotRead(problem),
+            },
             (Ok(threats), None) => {
                 let kind = Box::new(LayerKind::Threats(threats));
                 let change = match layer {

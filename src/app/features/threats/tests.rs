@@ -15,7 +15,7 @@ use crate::app::tests::{
     FREE, TALL, Window, click, document, entries, fingerprint, folder, key, level_at, move_to, notice, press,
     release, send, stroke, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
-use meshbrush_core::layers::{LayerId, LayerKind, Threat, ThreatLaw};
+use meshbrush_core::layers::{LayerId, Threat, ThreatLaw, Threats};
 
 /// Returns a window with a new, empty layer of threats, added by the menu of the panel.
 fn window_with_threats() -> Window {
@@ -34,7 +34,7 @@ fn click_button(window: &mut Window, name: &str) {
 
 fn threats(window: &Window) -> Vec<Threat> {
     let layer = document(window).active_layer().expect("a selected layer");
-    let LayerKind::Threats(threats) = &layer.kind else { panic!("{} is selected", layer.name) };
+    let Some(threats) = layer.kind.get::<Threats>() else { panic!("{} is selected", layer.name) };
     threats.list().to_vec()
 }
 

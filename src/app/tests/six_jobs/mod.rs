@@ -15,7 +15,7 @@ use super::{click, folder, key, level_at, send, settings, stroke, wait_for_jobs,
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::Tab;
 use hands::Hands;
-use meshbrush_core::layers::LayerKind;
+use meshbrush_core::layers::RasterLayer;
 
 /// A grid over the unit square.
 const DEPTHS: &str = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n\
@@ -81,7 +81,7 @@ fn a_depth_model_becomes_the_size_of_triangles() {
     hands.window.run();
     key(&mut hands.window, Modifiers::NONE, Key::Enter);
     wait_until(&mut hands.window, |window| {
-        settings(window).layers.iter().any(|layer| matches!(layer.kind, LayerKind::Raster { .. }))
+        settings(window).layers.iter().any(|layer| layer.kind.is::<RasterLayer>())
     });
     hands.press(Role::RadioButton, "Curve");
     hands.enter("h_min value", "0.008");

@@ -1,29 +1,9 @@
 use glam::dvec2;
 
 use super::*;
-use crate::layers::{DistanceTo, ShapeList, Shapes};
+use crate::layers::{DistanceLayer, DistanceTo, LayerKind, ShapeList, Shapes};
 
 const LONGEST: f64 = 0.5;
-
-#[test]
-fn a_formula_without_a_diameter_before_or_after_can_change_either_way() {
-    let infinite = f64::INFINITY;
-    for (new, old, finest, floor) in [
-        (0.2, 0.3, Finer, Finer),
-        (0.3, 0.2, Coarser, Coarser),
-        // Where the finest counts, a layer that asks for nothing is coarser than any; a floor is lower.
-        (infinite, 0.3, Coarser, Any),
-        (0.3, infinite, Finer, Any),
-        (0.0, 0.3, Any, Any),
-        (0.3, -0.1, Any, Any),
-    ] {
-        let formulas = [new, old].map(Formula::constant_of);
-        let change = |quantity, combine| formula_change(quantity, [&formulas[0], &formulas[1]], combine);
-        assert_eq!(change(Quantity::Diameter, Combine::Finest), finest, "{new} {old}");
-        assert_eq!(change(Quantity::Diameter, Combine::Floor), floor, "{new} {old}");
-        assert_eq!(change(Quantity::Risk, Combine::Finest), Any, "{new} {old}");
-    }
-}
 
 fn spec(layer: Layer, outline: Option<Shapes>) -> SizeFieldSpec {
     let transfer = Transfer::between(1e-4, 10.0);
@@ -51,10 +31,10 @@ fn at(steps: &[SpecChange], y: f64) -> Vec<TargetChange> {
 
 #[test]
 fn a_line_that_leaves_makes_coarser_and_one_that_joins_makes_finer_around_it() {
-    let mut layer = Layer::stack([LayerKind::target(Formula::constant_of(1.0))]).remove(0);
+    let mut layer = Layer::stack([LayerKind::constant(1.0)]).remove(0);
     let mut on = |rows: &[f64], combine| {
         let to = DistanceTo::Shapes { name: String::new(), shapes: lines(rows) };
-        layer.kind = LayerKind::Distance { to, at_zero: 0.1, slope: 1.0, range: 0.3 };
+        layer.kind = LayerKind::Distance(DistanceLayer { to, at_zero: 0.1, slope: 1.0, range: 0.3 });
         layer.combine = combine;
         spec(layer.clone(), None)
     };
@@ -68,9 +48,10 @@ fn a_line_that_leaves_makes_coarser_and_one_that_joins_makes_finer_around_it() {
 /// Only where the outline alone differs are its edges all that counts.
 #[test]
 fn another_outline_changes_the_distance_to_it_around_the_edges_that_differ() {
-    let mut layer = Layer::stack([LayerKind::target(Formula::constant_of(1.0))]).remove(0);
+    let mut layer = Layer::stack([LayerKind::constant(1.0)]).remove(0);
     let mut on = |at_zero, rows: Option<&[f64]>| {
-        layer.kind = LayerKind::Distance { to: DistanceTo::Outline, at_zero, slope: 1.0, range: 0.3 };
+        layer.kind =
+            LayerKind::Distance(DistanceLayer { to: DistanceTo::Outline, at_zero, slope: 1.0, range: 0.3 });
         spec(layer.clone(), rows.map(lines))
     };
     let before = on(0.1, Some(&[0.0, 5.0]));

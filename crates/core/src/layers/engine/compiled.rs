@@ -1,16 +1,16 @@
 //! One layer on a lattice.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::earth::EdgeLengths;
 use crate::field::Transfer;
 use crate::geometry::{Lattice, Octagon};
-use crate::layers::{
-    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Shapes, hiding,
-};
+use crate::layers::{Combine, DepthSizes, LayerId, Mask, PaintLayers, Quantity, Shapes};
 use crate::raster::{ValueRange, ValueRanges};
 
-use super::analytic::{Analytic, Function, Profile};
+use super::analytic::{Analytic, Function};
 use super::asked::Share;
 use super::cells::{Cells, Cut};
 use super::cover::{Cover, share_in_mask};
@@ -19,7 +19,7 @@ use super::pixels::range_touching;
 use super::reading::{Answer, Diameters, Reading};
 use super::search::{RasterSearch, any_cell};
 use super::steepness::Slopes;
-use super::values::{PaintGrid, Values, WithGaps};
+use super::values::{Values, WithGaps};
 
 /// A visible layer, prepared for questions on one lattice.
 #[derive(Clone, Debug)]
@@ -47,6 +47,9 @@ pub struct Carried {
 /// What the layers of a field are compiled for.
 #[derive(Clone, Copy)]
 pub struct CompiledPlane<'a> {
+    /// The files of depths, from the top to the bottom, with the meaning of their values, if a layer asks for
+    /// the depth.
+    pub depths: &'a [(Cover, DepthSizes)],
     pub transfer: &'a Transfer,
     pub lattice: &'a Lattice,
     /// Without one, no point is near to it.
@@ -54,67 +57,35 @@ pub struct CompiledPlane<'a> {
     pub edge_lengths: &'a EdgeLengths,
 }
 
+impl CompiledPlane<'_> {
+    /// Returns how values of a quantity are read. Risks up to `nothing` ask for nothing.
+    pub fn reading(&self, quantity: Quantity, nothing: f32) -> Reading {
+        match quantity {
+            Quantity::Risk => Reading::risk(self.transfer, self.lengths(), nothing),
+            Quantity::Diameter | Quantity::Error => self.diameters(),
+        }
+    }
+
+    /// Returns how target diameters are read.
+    pub fn diameters(&self) -> Reading {
+        Reading::diameter(self.lengths())
+    }
+
+    /// Returns the diameters that targets are compared with.
+    pub fn lengths(&self) -> &Arc<[f64]> {
+        self.edge_lengths.table()
+    }
+}
+
 impl CompiledLayer {
-    /// Compiles a layer of a stack.
-    pub fn new(layer: &Layer, stack: &[Layer], plane: &CompiledPlane) -> Self {
-        let CompiledPlane { transfer, lattice, outline, edge_lengths } = *plane;
-        let (lengths, greatest_scale) = (edge_lengths.table(), edge_lengths.greatest_scale());
-        let reading = |quantity, nothing| match quantity {
-            Quantity::Risk => Reading::risk(transfer, lengths, nothing),
-            Quantity::Diameter | Quantity::Error => Reading::diameter(lengths),
-        };
-        const NO_RISK: f32 = f32::NEG_INFINITY;
-        let (reading, values) = match &layer.kind {
-            _ if layer.is_of_errors() => (reading(Quantity::Diameter, NO_RISK), Values::Nothing),
-            LayerKind::Paint(quantity) => (reading(*quantity, 0.0), Values::Paint(PaintGrid::default())),
-            LayerKind::Formula { quantity, formula } => {
-                (reading(*quantity, NO_RISK), Values::of_formula(*quantity, formula, stack, lattice))
-            }
-            LayerKind::Raster { source, reading: of } => {
-                let (reading, gap) = match of {
-                    RasterReading::Risk => (reading(Quantity::Risk, NO_RISK), NO_RISK),
-                    RasterReading::Diameter | RasterReading::Error => {
-                        (reading(Quantity::Diameter, NO_RISK), f32::INFINITY)
-                    }
-                    RasterReading::Curve(curve) => {
-                        (Reading::Curve { curve: curve.clone(), lengths: lengths.clone() }, f32::INFINITY)
-                    }
-                };
-                (reading, Values::of_raster(&source.raster, gap, lattice))
-            }
-            LayerKind::Threats(threats) => {
-                let risk = Analytic::new(Function::Threats(threats.clone()), Quantity::Risk);
-                (reading(Quantity::Risk, 0.0), Values::Analytic(risk))
-            }
-            LayerKind::Distance { to, at_zero, slope, range } => {
-                let growth = Profile::on_earth(to.reach(), [*at_zero, *slope, *range], greatest_scale);
-                let values = Values::of_distance(to, growth, outline);
-                (reading(Quantity::Diameter, NO_RISK), values)
-            }
-            LayerKind::Band { source, between, diameter } => {
-                let lengths = lengths.clone();
-                let reading = Reading::Band { between: *between, diameter: *diameter, lengths };
-                (reading, Values::of_raster(&source.raster, f32::INFINITY, lattice))
-            }
-            LayerKind::Straits(straits) => {
-                let function = Function::Straits(straits.clone(), greatest_scale);
-                (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
-            }
-            LayerKind::FeatureSize(size) => {
-                let function = Function::FeatureSize(size.clone(), greatest_scale);
-                (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
-            }
-            LayerKind::Surface(_) => (reading(Quantity::Diameter, NO_RISK), Values::Nothing),
-            LayerKind::Depth(depths) => {
-                let values = Values::of_raster(depths.deciding(), f32::INFINITY, lattice);
-                (Reading::of_depths(depths, layer.combine, lengths), values)
-            }
-        };
-        let (id, combine, mask) = (layer.id, layer.combine, layer.mask.clone());
-        let covers = hiding(stack, layer)
-            .map(|(above, depths)| Cover::new(&depths.source().raster, above.mask.as_ref(), lattice))
-            .collect();
-        Self { id, combine, mask, covers, reading, values, graded: None, carried: None }
+    /// Returns a layer that counts everywhere, combined with those below in some way.
+    pub fn new((id, combine): (LayerId, Combine), (reading, values): (Reading, Values)) -> Self {
+        Self { id, combine, mask: None, covers: Vec::new(), reading, values, graded: None, carried: None }
+    }
+
+    /// Lets the layer count in the area of a mask only, and nowhere below some depths.
+    pub fn within(self, mask: Option<Mask>, covers: Vec<Cover>) -> Self {
+        Self { mask, covers, ..self }
     }
 
     /// Finds in closed form what gradation carries, where that is possible: at least h_min, up to `most`. The

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::field::{Bounds, Formula};
 use crate::geometry::Lattice;
-use crate::layers::{DepthSizes, DepthSurface, Depths, Layer, Quantity};
+use crate::layers::{DepthSizes, Quantity};
 use crate::raster::ValueRange;
 
 use super::analytic::{Analytic, Function};
@@ -34,16 +34,12 @@ struct CellDepths {
 }
 
 impl DepthFormula {
-    pub fn new(formula: &Formula, quantity: Quantity, stack: &[Layer], lattice: &Lattice) -> Self {
-        let files = DepthSurface::of(stack).map_or_else(Vec::new, |surface| surface.0);
-        let file = |(layer, depths): (&Layer, &Depths)| {
-            let cover = Cover::new(&depths.source().raster, layer.mask.as_ref(), lattice);
-            (cover, *depths.sizes())
-        };
+    /// `files` are from the top of the stack to its bottom.
+    pub fn new(formula: &Formula, quantity: Quantity, files: &[(Cover, DepthSizes)]) -> Self {
         Self {
             formula: formula.clone(),
             values: Analytic::new(Function::Formula(formula.clone()), quantity),
-            files: files.into_iter().map(file).collect(),
+            files: files.to_vec(),
         }
     }
 
@@ -134,7 +130,7 @@ mod tests {
     use super::*;
     use crate::domain::corners;
     use crate::geometry::Rect;
-    use crate::layers::{DepthRule, LayerKind, Mask, PositiveDepth, RasterSource};
+    use crate::layers::{DepthRule, Depths, Mask, PositiveDepth, RasterSource};
     use crate::raster::{Raster, RasterPyramid};
 
     /// Files of depths whose pixels are lattice cells times a power of two, some masked, with gaps.
@@ -147,10 +143,7 @@ mod tests {
             let source = RasterSource { name: "a".into(), raster: Arc::new(RasterPyramid::new(raster)) };
             let positive = [PositiveDepth::Up, PositiveDepth::Down][random.usize(..2)];
             let between = DepthSizes::ALL_WATER;
-            LayerKind::Depth(Depths::new(
-                source,
-                DepthSizes { positive, offset: 3.0, between, rule: DepthRule::Nothing },
-            ))
+            Depths::new(source, DepthSizes { positive, offset: 3.0, between, rule: DepthRule::Nothing })
         };
         let mut layers = Layer::stack((0..random.usize(1..4)).map(|_| file(random)));
         for layer in &mut layers {
@@ -165,7 +158,7 @@ mod tests {
     /// The depth of the highest file with a value, from its pixel.
     fn referee_depth(layers: &[Layer], at: DVec2) -> Option<f64> {
         layers.iter().rev().filter(|layer| layer.visible).find_map(|layer| {
-            let LayerKind::Depth(depths) = &layer.kind else { panic!("{layer:?}") };
+            let Some(depths) = layer.kind.get::<Depths>() else { panic!("{layer:?}") };
             let raster = depths.source().raster.raster();
             let side = f64::from(raster.size()[0]);
             let value = raster.get((at.x * side) as u32, (at.y * side) as u32);

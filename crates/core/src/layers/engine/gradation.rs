@@ -19,12 +19,13 @@
 use glam::DVec2;
 
 use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
-use crate::layers::{PaintLayers, SizeField};
+use crate::layers::PaintLayers;
 
 use super::cells::Cells;
 use super::cone::Cone;
 use super::parts::{KnownParts, LEAST_BITS, PartId};
 use super::place::{Place, Point, TriangleInWorld, gap, rect_of};
+use super::stack::Stack;
 use super::steepness::Slopes;
 
 /// A comparison that has not ended after so many rectangles says that h̄ is not below.
@@ -71,7 +72,7 @@ impl Accuracy {
 
 /// A search over a field from a place, with the slope g.
 pub struct GradationSearch<'a, P> {
-    pub field: &'a SizeField,
+    pub stack: &'a Stack,
     pub paint: &'a PaintLayers,
     pub place: P,
     pub slope: f64,
@@ -99,7 +100,7 @@ impl<P: Place> GradationSearch<'_, P> {
         least: f64,
         length: f64,
     ) -> impl Iterator<Item = PartId> + use<P> {
-        let lattice = self.field.lattice();
+        let lattice = self.stack.lattice();
         let reach = self.place.bounds().expanded(((length - least) / self.slope).max(0.0));
         let step = lattice.step();
         let all = Cells::all(lattice.extent());
@@ -108,19 +109,19 @@ impl<P: Place> GradationSearch<'_, P> {
             min: min.map(|v| (v.floor() as i64).saturating_sub(1).max(0)),
             max: max.map(|v| (v.ceil() as i64).saturating_add(1)),
         };
-        let around = around.intersection(&all).map(|around| known.covering(self.field, self.paint, &around));
+        let around = around.intersection(&all).map(|around| known.covering(self.stack, self.paint, &around));
         around.into_iter().flatten()
     }
 
     /// Returns a part, unless its bound is at least `limit`, and its bound.
     #[inline]
     pub fn part(&self, known: &mut KnownParts, id: PartId, limit: f64) -> Option<(f64, SearchedPart)> {
-        let [least, greatest] = known.diameters(self.field, self.paint, id);
+        let [least, greatest] = known.diameters(self.stack, self.paint, id);
         if least >= limit {
             return None;
         }
         let cells = known.cells(id)?;
-        let rect = rect_of(&cells, self.field.lattice());
+        let rect = rect_of(&cells, self.stack.lattice());
         // The exact distance takes longer.
         if least + self.slope * gap(&self.place.bounds(), &rect) >= limit {
             return None;
@@ -133,7 +134,7 @@ impl<P: Place> GradationSearch<'_, P> {
     /// Returns the rectangle of a part, in world units with the corner of the lattice as origin.
     pub fn rect(&self, known: &KnownParts, id: PartId) -> Rect {
         let empty = Rect::new(DVec2::ZERO, DVec2::ZERO);
-        known.cells(id).map_or(empty, |cells| rect_of(&cells, self.field.lattice()))
+        known.cells(id).map_or(empty, |cells| rect_of(&cells, self.stack.lattice()))
     }
 
     /// Returns whether a least value of h + g d can lie inside a part, and not only at the place or on the
@@ -141,7 +142,7 @@ impl<P: Place> GradationSearch<'_, P> {
     #[inline]
     pub fn is_steep(&self, known: &mut KnownParts, part: PartId) -> bool {
         let rect = self.rect(known, part);
-        let (slopes, _) = known.slopes(self.field, self.paint, part);
+        let (slopes, _) = known.slopes(self.stack, self.paint, part);
         slopes.exceed(self.slope) && !self.falls_throughout(slopes, &rect)
     }
 
@@ -154,7 +155,7 @@ impl<P: Place> GradationSearch<'_, P> {
     fn falls_throughout(&self, slopes: &Slopes, rect: &Rect) -> bool {
         let away = Cone::from_point(self.place.nearest(rect.center()), rect);
         let (away, spread) = away.map_or((DVec2::ZERO, 1.0), |cone| (cone.toward(), cone.spread()));
-        let all = rect_of(&Cells::all(self.field.lattice().extent()), self.field.lattice());
+        let all = rect_of(&Cells::all(self.stack.lattice().extent()), self.stack.lattice());
         let within_lattice = |mut rise: DVec2| {
             for axis in 0..2 {
                 let leaves = match rise[axis] > 0.0 {
@@ -170,7 +171,7 @@ impl<P: Place> GradationSearch<'_, P> {
 
     /// Returns the parts that a part is divided into.
     pub fn divided(&self, known: &mut KnownParts, part: PartId) -> impl Iterator<Item = PartId> + use<P> {
-        known.divided(self.field, self.paint, part, self.finest)
+        known.divided(self.stack, self.paint, part, self.finest)
     }
 
     /// Returns whether a cell of some parts, at distance d from the place, has h + g d < `length`. Cells at
@@ -209,21 +210,21 @@ pub fn quarter_bits([min, max]: [[i64; 2]; 2]) -> u32 {
 /// Cells that touch the triangle must be known to have no h below. `sources` hold all such cells, if they are
 /// known.
 pub fn any_below(
-    field: &SizeField,
+    stack: &Stack,
     paint: &PaintLayers,
     known: &mut KnownParts,
     corners: [LatticePoint; 3],
     (slope, length): (f64, f64),
     sources: Option<&[PartId]>,
 ) -> bool {
-    let place = TriangleInWorld::new(corners, field.lattice());
+    let place = TriangleInWorld::new(corners, stack.lattice());
     // Many pixels can be equally far from a side of the triangle; cells are then divided at pixels.
-    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
-    let search = GradationSearch { field, paint, place, slope, finest };
+    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(stack.pixel_bits(paint));
+    let search = GradationSearch { stack, paint, place, slope, finest };
     match sources {
         Some(sources) => search.any_below(known, sources.iter().copied(), length),
         None => {
-            let start = search.start(known, field.spec().transfer.h_min, length);
+            let start = search.start(known, stack.limits().h_min, length);
             search.any_below(known, start, length)
         }
     }
@@ -233,21 +234,21 @@ pub fn any_below(
 /// which it comes; `start` is a value that is known, and its place. What the layers ask for that `known`
 /// leaves out must be in `start`.
 pub fn least(
-    field: &SizeField,
+    stack: &Stack,
     paint: &PaintLayers,
     known: &mut KnownParts,
     point: DVec2,
     (slope, accuracy): (f64, Accuracy),
     start: (f64, DVec2),
 ) -> (f64, DVec2) {
-    let h_min = field.spec().transfer.h_min;
+    let h_min = stack.limits().h_min;
     if start.0 <= h_min {
         return start;
     }
-    let origin = field.lattice().bounds().min;
+    let origin = stack.lattice().bounds().min;
     let place = Point(point - origin);
-    let finest = field.pixel_bits(paint).max(LEAST_BITS);
-    let search = GradationSearch { field, paint, place, slope, finest };
+    let finest = stack.pixel_bits(paint).max(LEAST_BITS);
+    let search = GradationSearch { stack, paint, place, slope, finest };
     let (mut best, mut parts) = (start, BestFirst::default());
     for id in search.start(known, h_min, start.0) {
         if let Some((bound, part)) = search.part(known, id, best.0 * (1.0 - TIGHT)) {
@@ -266,7 +267,7 @@ pub fn least(
         let at = if is_one { search.place.0.clamp(rect.min, rect.max) } else { center };
         let carried = slope * at.distance(search.place.0);
         if part.least + carried < best.0 {
-            let value = field.ungraded_by(known.counting(), paint, origin + center).target + carried;
+            let value = stack.ungraded_by(known.counting(), paint, origin + center).target + carried;
             if value < best.0 {
                 best = (value, origin + at);
             }
@@ -311,7 +312,7 @@ pub struct GradedBounds {
 /// At every point of the cells h̄ is at most `greatest`. So a part with a bound of at least this value is no
 /// source: a lower value is carried to all triangles in the cells from other ones.
 pub fn graded_bounds(
-    field: &SizeField,
+    stack: &Stack,
     paint: &PaintLayers,
     known: &mut KnownParts,
     (cells, sources): (&Cells, &[PartId]),
@@ -319,10 +320,10 @@ pub fn graded_bounds(
     [least, greatest]: [f64; 2],
     is_enough: impl Fn([f64; 2]) -> bool,
 ) -> GradedBounds {
-    let place = rect_of(cells, field.lattice());
+    let place = rect_of(cells, stack.lattice());
     let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
     let finest = quarter_bits([cells.min, cells.max]);
-    let search = GradationSearch { field, paint, place, slope, finest };
+    let search = GradationSearch { stack, paint, place, slope, finest };
     let mut parts = BestFirst::default();
     // The least h̄ is from `low` to `low_most`, and every h̄ is at most `high`.
     let (mut low_most, mut high) = (greatest, greatest);
@@ -350,7 +351,7 @@ pub fn graded_bounds(
             parts.push(bound, id);
             break;
         }
-        if !known.slopes(field, paint, id).0.exceed(slope) {
+        if !known.slopes(stack, paint, id).0.exceed(slope) {
             continue;
         }
         if !search.is_steep(known, id) {
@@ -364,13 +365,13 @@ pub fn graded_bounds(
     }
     let high = most[1] * (1.0 + MARGIN);
     sources.extend(parts.into_parts().filter(|(bound, _)| *bound < high).map(|(_, id)| id));
-    let [h_min, h_max] = [field.spec().transfer.h_min, field.spec().transfer.h_max];
+    let [h_min, h_max] = [stack.limits().h_min, stack.limits().h_max];
     GradedBounds { least: (low * (1.0 - MARGIN)).max(h_min), greatest: high.min(h_max), sources }
 }
 
 /// A field in which some cells have changed, for questions about the values that other cells carry.
 pub struct Elsewhere<'a> {
-    pub field: &'a SizeField,
+    pub stack: &'a Stack,
     pub paint: &'a PaintLayers,
     pub slope: f64,
     pub changed: &'a [Cells],
@@ -386,11 +387,11 @@ pub fn most_from_elsewhere(
     (cells, sources): (&Cells, &[PartId]),
     limit: f64,
 ) -> Option<Vec<PartId>> {
-    let Elsewhere { field, paint, slope, changed } = *elsewhere;
-    let place = rect_of(cells, field.lattice());
+    let Elsewhere { stack, paint, slope, changed } = *elsewhere;
+    let place = rect_of(cells, stack.lattice());
     let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
     let finest = quarter_bits([cells.min, cells.max]);
-    let search = GradationSearch { field, paint, place, slope, finest };
+    let search = GradationSearch { stack, paint, place, slope, finest };
     // What is too much here may be little enough for a part of the cells that is farther from the change.
     let most = limit + 2.0 * slope * half_diagonal;
     let mut parts = BestFirst::default();

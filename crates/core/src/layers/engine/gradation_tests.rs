@@ -10,8 +10,9 @@ use crate::domain::{BoundaryMarks, Domain, Ring};
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::{
-    DistanceTo, Layer, LayerId, LayerKind, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes,
-    SizeField, SizeFieldSpec, StraitDiscs, Straits, Threat, ThreatLaw, Threats,
+    DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, RasterLayer, RasterReading,
+    RasterSource, ShapeList, Shapes, SizeField, SizeFieldSpec, StraitDiscs, Straits, Threat, ThreatLaw,
+    Threats,
 };
 use crate::raster::{Raster, RasterPyramid};
 
@@ -155,13 +156,13 @@ fn sea(random: &mut fastrand::Rng) -> [LayerKind; 3] {
     let source = RasterSource { name: "pixels".into(), raster: std::sync::Arc::new(raster) };
     [
         LayerKind::Straits(Straits { across: 3.0, found }),
-        LayerKind::Distance {
+        LayerKind::Distance(DistanceLayer {
             to: DistanceTo::Shapes { shapes, name: String::new() },
             at_zero: 0.04 + 0.05 * random.f64(),
             slope: random.f64(),
             range: 0.3,
-        },
-        LayerKind::Raster { source, reading: RasterReading::Diameter },
+        }),
+        LayerKind::Raster(RasterLayer { source, reading: RasterReading::Diameter }),
     ]
 }
 

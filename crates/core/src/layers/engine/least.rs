@@ -3,11 +3,12 @@
 use glam::DVec2;
 
 use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
-use crate::layers::{PaintLayers, SizeField};
+use crate::layers::PaintLayers;
 
 use super::gradation::{GradationSearch, SearchedPart, quarter_bits};
 use super::parts::KnownParts;
 use super::place::{Place, TriangleInWorld};
+use super::stack::Stack;
 
 /// The least h̄ in a closed triangle.
 pub struct Least {
@@ -32,15 +33,15 @@ const PROJECTIONS: usize = 60;
 const NO_GRADATION: f64 = f64::MAX;
 
 /// Returns the least h̄ in the closed triangle with these corners.
-pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoint; 3]) -> Least {
-    let lattice = field.lattice();
+pub fn least_within(stack: &Stack, paint: &PaintLayers, corners: [LatticePoint; 3]) -> Least {
+    let lattice = stack.lattice();
     let place = TriangleInWorld::new(corners, lattice);
-    let slope = field.slope().unwrap_or(NO_GRADATION);
-    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
-    let search = GradationSearch { field, paint, place, slope, finest };
+    let slope = stack.slope().unwrap_or(NO_GRADATION);
+    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(stack.pixel_bits(paint));
+    let search = GradationSearch { stack, paint, place, slope, finest };
     let origin = lattice.bounds().min;
     let all = Rect::new(DVec2::ZERO, lattice.bounds().max - origin);
-    let (target, rect) = search.least(&mut KnownParts::default()).unwrap_or((field.spec().unasked, all));
+    let (target, rect) = search.least(&mut KnownParts::default()).unwrap_or((stack.limits().unasked, all));
     let (at, from) = nearest_pair(&search.place, &rect);
     Least { target, at: origin + at, from: origin + from }
 }
@@ -62,8 +63,8 @@ impl GradationSearch<'_, TriangleInWorld> {
                 parts.push(bound, part);
             }
         };
-        let most = self.field.spec().transfer.h_max.max(self.field.spec().unasked);
-        for id in self.start(known, self.field.spec().transfer.h_min, most) {
+        let most = self.stack.limits().h_max.max(self.stack.limits().unasked);
+        for id in self.start(known, self.stack.limits().h_min, most) {
             let found = self.part(known, id, f64::INFINITY);
             found.into_iter().for_each(|found| offer(known, found, &mut parts, &mut best));
         }

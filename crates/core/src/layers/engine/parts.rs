@@ -12,10 +12,11 @@
 //! ```
 
 use crate::geometry::LatticePoint;
-use crate::layers::{PaintLayers, SizeField};
+use crate::layers::PaintLayers;
 
 use super::cells::{Cells, Cut};
 use super::counting::Counting;
+use super::stack::Stack;
 use super::steepness::{Slopes, slopes};
 
 /// The square of 2^bits lattice steps in a column and a row of such squares.
@@ -114,7 +115,7 @@ struct Known {
 
 /// Bounds of h̄ before gradation in parts of the lattice, kept for later questions.
 ///
-/// Searches for places nearby look at the same parts. The answers are those of one field, and never depend on
+/// Searches for places nearby look at the same parts. The answers are those of one stack, and never depend on
 /// what is known. Where paint has changed, [`Self::forget`] must be called.
 #[derive(Clone, Debug, Default)]
 pub struct KnownParts {
@@ -174,10 +175,10 @@ impl KnownParts {
         is_full
     }
 
-    /// Returns the whole lattice of a field.
-    pub fn whole(&mut self, field: &SizeField) -> PartId {
+    /// Returns the whole lattice of a stack.
+    pub fn whole(&mut self, stack: &Stack) -> PartId {
         if self.parts.is_empty() {
-            let extent = field.lattice().extent();
+            let extent = stack.lattice().extent();
             let square = Square::whole(extent);
             self.parts.push(Known::new(square.cells(extent), Some(square.bits), NONE));
         }
@@ -187,33 +188,33 @@ impl KnownParts {
     /// Returns at most four squares that cover some cells, not much larger than these.
     pub fn covering(
         &mut self,
-        field: &SizeField,
+        stack: &Stack,
         paint: &PaintLayers,
         cells: &Cells,
     ) -> impl Iterator<Item = PartId> + use<> {
         let mut found = [None; 4];
         for (place, square) in found.iter_mut().zip(Square::covering(cells)) {
-            *place = Some(self.square(field, paint, square));
+            *place = Some(self.square(stack, paint, square));
         }
         found.into_iter().flatten()
     }
 
     /// Returns a square that is not larger than the whole lattice.
-    pub fn square(&mut self, field: &SizeField, paint: &PaintLayers, square: Square) -> PartId {
-        let mut part = self.whole(field);
-        let whole = Square::whole(field.lattice().extent());
+    pub fn square(&mut self, stack: &Stack, paint: &PaintLayers, square: Square) -> PartId {
+        let mut part = self.whole(stack);
+        let whole = Square::whole(stack.lattice().extent());
         for bits in (square.bits..whole.bits).rev() {
             let Square { column, row, .. } = square.around(bits);
-            let quarters = self.quarters(field, paint, part);
+            let quarters = self.quarters(stack, paint, part);
             part = PartId(quarters + (column & 1) + 2 * (row & 1));
         }
         part
     }
 
     /// Returns the first of four quarters of a square.
-    fn quarters(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) -> u32 {
+    fn quarters(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) -> u32 {
         // What counts here decides what is asked in the quarters.
-        self.slopes(field, paint, part);
+        self.slopes(stack, paint, part);
         let Known { quarters, min, bits, .. } = self.parts[part.0 as usize];
         if quarters != NONE {
             return quarters;
@@ -221,7 +222,7 @@ impl KnownParts {
         let bits = bits.map_or(LEAST_BITS, u32::from);
         let square = Square { bits, column: min[0] >> bits, row: min[1] >> bits };
         let first = self.parts.len() as u32;
-        let extent = field.lattice().extent();
+        let extent = stack.lattice().extent();
         let of_quarter = |square: Square| Known::new(square.cells(extent), Some(square.bits), part.0);
         self.parts.extend(square.quarters().map(of_quarter));
         self.parts[part.0 as usize].quarters = first;
@@ -232,28 +233,28 @@ impl KnownParts {
     /// otherwise halves where the layers say so, of which there are none where nothing more is to be known.
     pub fn divided(
         &mut self,
-        field: &SizeField,
+        stack: &Stack,
         paint: &PaintLayers,
         part: PartId,
         finest: u32,
     ) -> impl Iterator<Item = PartId> + use<> {
         let bits = self.parts[part.0 as usize].bits;
         let (first, count) = match bits {
-            Some(bits) if u32::from(bits) > finest => (self.quarters(field, paint, part), 4),
-            _ => self.halves(field, paint, part).map_or((0, 0), |first| (first, 2)),
+            Some(bits) if u32::from(bits) > finest => (self.quarters(stack, paint, part), 4),
+            _ => self.halves(stack, paint, part).map_or((0, 0), |first| (first, 2)),
         };
         (first..first + count).map(PartId)
     }
 
-    fn halves(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) -> Option<u32> {
-        let counting = self.slopes(field, paint, part).1;
+    fn halves(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) -> Option<u32> {
+        let counting = self.slopes(stack, paint, part).1;
         let known = &self.parts[part.0 as usize];
         if known.halves != NONE {
             return Some(known.halves);
         }
         let cells = known.cells();
         let cut = match known.bits {
-            Some(_) if counting != known.counting => field.diameters(paint, &cells, counting).1,
+            Some(_) if counting != known.counting => stack.diameters(paint, &cells, counting).1,
             _ => known.cut,
         };
         let halves = cells.divided(cut?);
@@ -277,21 +278,21 @@ impl KnownParts {
 
     /// Returns the least and the greatest h̄ before gradation, in world units; infinite beside the lattice.
     #[inline]
-    pub fn diameters(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) -> [f64; 2] {
+    pub fn diameters(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) -> [f64; 2] {
         let known = &self.parts[part.0 as usize];
         if known.has_diameters {
             return known.diameters;
         }
-        self.find(field, paint, part);
+        self.find(stack, paint, part);
         self.parts[part.0 as usize].diameters
     }
 
     #[cold]
-    fn find(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) {
+    fn find(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) {
         let Known { around, .. } = self.parts[part.0 as usize];
         let counting =
-            if around == NONE { self.counting } else { self.slopes(field, paint, PartId(around)).1 };
-        let found = self.cells(part).map(|cells| field.diameters(paint, &cells, counting));
+            if around == NONE { self.counting } else { self.slopes(stack, paint, PartId(around)).1 };
+        let found = self.cells(part).map(|cells| stack.diameters(paint, &cells, counting));
         let known = &mut self.parts[part.0 as usize];
         (known.diameters, known.cut) = found.unwrap_or(([f64::INFINITY; 2], None));
         (known.counting, known.has_diameters) = (counting, true);
@@ -299,20 +300,20 @@ impl KnownParts {
 
     /// Returns bounds of the gradient of h̄ before gradation, in world units, and the layers that can count.
     #[inline]
-    pub fn slopes(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) -> (&Slopes, Counting) {
+    pub fn slopes(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) -> (&Slopes, Counting) {
         if !self.parts[part.0 as usize].has_slopes {
-            self.find_slopes(field, paint, part);
+            self.find_slopes(stack, paint, part);
         }
         let (slopes, counting) = &self.slopes[self.parts[part.0 as usize].slopes as usize];
         (slopes, *counting)
     }
 
     #[cold]
-    fn find_slopes(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) {
-        self.diameters(field, paint, part);
+    fn find_slopes(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) {
+        self.diameters(stack, paint, part);
         let counting = self.parts[part.0 as usize].counting;
         let found = match self.cells(part) {
-            Some(cells) => slopes(field, paint, &cells, counting),
+            Some(cells) => slopes(stack, paint, &cells, counting),
             None => (Slopes::FLAT, counting),
         };
         let known = &mut self.parts[part.0 as usize];

@@ -8,6 +8,9 @@ use crate::raster::ValueRange;
 
 use super::asked::Share;
 
+/// The risk of places without a value: it asks for nothing.
+pub const NO_RISK: f32 = f32::NEG_INFINITY;
+
 /// The target diameters for the values of a layer, prepared for comparisons with the limits of
 /// [`EdgeLengths`](crate::earth::EdgeLengths).
 ///

@@ -7,7 +7,8 @@ use crate::domain::corners;
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::{
-    DistanceTo, Layer, LayerKind, PaintLayers, SettledSquares, ShapeList, Shapes, SizeField, SizeFieldSpec,
+    DistanceLayer, DistanceTo, Layer, LayerKind, PaintLayers, SettledSquares, ShapeList, Shapes, SizeField,
+    SizeFieldSpec,
 };
 use crate::mesh::{Limits, Mesh};
 
@@ -34,7 +35,7 @@ fn looks(kind: LayerKind) -> [usize; 2] {
 fn distance(list: ShapeList, factor: f64) -> LayerKind {
     let shapes = Shapes::new(list, false).unwrap();
     let to = DistanceTo::Shapes { name: String::new(), shapes };
-    LayerKind::Distance { to, at_zero: 0.05 * factor, slope: 0.2, range: f64::INFINITY }
+    DistanceLayer { to, at_zero: 0.05 * factor, slope: 0.2, range: f64::INFINITY }.into()
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::field::Bounds;
-use crate::layers::{Combine, PaintLayers, SizeField};
+use crate::layers::{Combine, PaintLayers};
 
 use super::asked::Share;
 use super::cells::Cells;
@@ -11,6 +11,7 @@ use super::compiled::CompiledLayer;
 use super::cone::Cone;
 use super::counting::Counting;
 use super::reading::Diameters;
+use super::stack::Stack;
 
 /// Bounds of slopes are rounded up. Where h is steeper than g by this share of g alone, gradation takes at
 /// most this share of h̄ away: it carries values of at least 0 over distances up to h̄ / g.
@@ -131,10 +132,10 @@ struct Asked<'a> {
 impl<'a> Asked<'a> {
     /// Asks the layers that can count, and takes those out of `counting` that do not: without a diameter in
     /// the cells, below a layer that replaces all of them, and floors below which nothing is.
-    fn of(field: &'a SizeField, paint: &PaintLayers, cells: &Cells, counting: &mut Counting) -> Self {
+    fn of(stack: &'a Stack, paint: &PaintLayers, cells: &Cells, counting: &mut Counting) -> Self {
         let (mut layers, mut is_minimum) = (Vec::new(), true);
-        for (number, layer) in field.counting(*counting) {
-            let diameters = layer.diameters(paint, cells, field.lattice()).0;
+        for (number, layer) in stack.counting(*counting) {
+            let diameters = layer.diameters(paint, cells, stack.lattice()).0;
             let is_alone = layers.is_empty();
             match (diameters.present, layer.combine) {
                 (Share::None, _) => continue,
@@ -158,14 +159,14 @@ impl<'a> Asked<'a> {
 ///
 /// A layer whose values are above those of another one all over does not count where the finest counts.
 pub fn slopes(
-    field: &SizeField,
+    stack: &Stack,
     paint: &PaintLayers,
     cells: &Cells,
     mut counting: Counting,
 ) -> (Slopes, Counting) {
     // Values on both sides of the border count.
-    let cells = &cells.with_neighbours(field.lattice().extent());
-    let Asked { layers: asked, is_minimum } = Asked::of(field, paint, cells, &mut counting);
+    let cells = &cells.with_neighbours(stack.lattice().extent());
+    let Asked { layers: asked, is_minimum } = Asked::of(stack, paint, cells, &mut counting);
     let all = asked.iter().filter(|(_, _, diameters)| diameters.present == Share::All);
     let decides = all.map(|(_, _, diameters)| diameters.greatest).fold(f64::INFINITY, f64::min);
     for (number, _, diameters) in &asked {
@@ -174,22 +175,22 @@ pub fn slopes(
         }
     }
     // Where nothing asks, h̄ is h_max: as if a layer asked for it.
-    let h_max = field.spec().transfer.h_max;
-    let background = is_minimum.then_some(h_max).filter(|&h_max| field.spec().unasked >= h_max);
+    let h_max = stack.limits().h_max;
+    let background = is_minimum.then_some(h_max).filter(|&h_max| stack.limits().unasked >= h_max);
     let decides = background.map_or(decides, |h_max| decides.min(h_max));
     let deciding = asked.iter().filter(|(_, _, diameters)| !is_minimum || diameters.least < decides);
     let deciding = || deciding.clone().map(|(_, layer, diameters)| (*layer, diameters));
     let is_smooth = |layer: &CompiledLayer, diameters: &Diameters| match background {
         _ if diameters.present == Share::All => !layer.jumps(diameters),
-        Some(h_max) => layer.fades_to(h_max, cells, field.lattice()),
+        Some(h_max) => layer.fades_to(h_max, cells, stack.lattice()),
         None => false,
     };
     if !deciding().all(|(layer, diameters)| is_smooth(layer, diameters)) {
         return (Slopes::UNKNOWN, counting);
     }
-    let limits = field.spec().transfer.h_min..=h_max;
+    let limits = stack.limits().h_min..=h_max;
     let slopes = deciding().map(|(layer, diameters)| {
-        let own = layer.slopes(cells, diameters, field.lattice());
+        let own = layer.slopes(cells, diameters, stack.lattice());
         // Beyond the limits, h̄ is a limit.
         let is_within = limits.contains(&diameters.least) && limits.contains(&diameters.greatest);
         if is_within { own } else { own.or(Slopes::FLAT) }

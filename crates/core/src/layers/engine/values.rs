@@ -4,16 +4,17 @@ use std::sync::{Arc, OnceLock};
 
 use crate::field::Formula;
 use crate::geometry::Lattice;
-use crate::layers::{DistanceTo, Layer, Quantity, Shapes};
+use crate::layers::{Quantity, Shapes};
 use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
 
 use super::analytic::{Analytic, Function, Profile};
 use super::cells::GridOnLattice;
+use super::compiled::CompiledPlane;
 use super::depth_formula::DepthFormula;
 
 /// The source of the values of a layer.
 #[derive(Clone, Debug)]
-pub(super) enum Values {
+pub enum Values {
     /// There are none.
     Nothing,
     /// One value everywhere.
@@ -30,7 +31,7 @@ pub(super) enum Values {
 
 /// The grid of the painted pixels on the lattice, as of the first question: it hardly ever changes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct PaintGrid(OnceLock<(PixelGrid, GridOnLattice)>);
+pub struct PaintGrid(OnceLock<(PixelGrid, GridOnLattice)>);
 
 impl PaintGrid {
     #[inline]
@@ -41,19 +42,19 @@ impl PaintGrid {
 }
 
 impl Values {
+    /// Returns the pixels of a raster, in which places without a value have a given one.
     pub fn of_raster(raster: &Arc<RasterPyramid>, gap: f32, lattice: &Lattice) -> Self {
         let grid = GridOnLattice::new(raster.grid(), lattice);
         Self::Raster { raster: raster.clone(), gap, grid }
     }
 
-    pub fn of_distance(to: &DistanceTo, profile: Profile, outline: Option<&Shapes>) -> Self {
-        let shapes = match to {
-            DistanceTo::Outline => outline,
-            DistanceTo::Coasts
-            | DistanceTo::Pieces(_)
-            | DistanceTo::Shapes { .. }
-            | DistanceTo::Corridor { .. } => to.shapes(),
-        };
+    /// Returns painted pixels.
+    pub fn paint() -> Self {
+        Self::Paint(PaintGrid::default())
+    }
+
+    /// Returns a function of the distance from shapes; nothing without any.
+    pub fn of_distance(shapes: Option<&Shapes>, profile: Profile) -> Self {
         shapes.cloned().map_or(Self::Nothing, |shapes| {
             Self::Analytic(Analytic::new(Function::Distance { shapes, profile }, Quantity::Diameter))
         })
@@ -64,11 +65,11 @@ impl Values {
         Self::Analytic(Analytic::new(function, Quantity::Diameter))
     }
 
-    /// Returns the values of a formula in a stack of layers.
-    pub fn of_formula(quantity: Quantity, formula: &Formula, stack: &[Layer], lattice: &Lattice) -> Self {
+    /// Returns the values of a formula.
+    pub fn of_formula(formula: &Formula, quantity: Quantity, plane: &CompiledPlane) -> Self {
         let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
         match formula.constant() {
-            _ if formula.uses_depth() => Self::Depth(DepthFormula::new(formula, quantity, stack, lattice)),
+            _ if formula.uses_depth() => Self::Depth(DepthFormula::new(formula, quantity, plane.depths)),
             Some(_) => Self::Constant(analytic),
             None => Self::Analytic(analytic),
         }

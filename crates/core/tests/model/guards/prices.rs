@@ -60,7 +60,7 @@ fn goals_of_other_norms_stay() {
     for norm in norms {
         let layers = mesh.clone().without_goals(norm).field.layers;
         for layer in &layers {
-            let LayerKind::Surface(surface) = &layer.kind else { panic!("{layer:?}") };
+            let Some(surface) = layer.kind.get::<Surface>() else { panic!("{layer:?}") };
             let expected = if surface.norm == norm { SurfaceGoal::AtMost(usize::MAX) } else { goal };
             assert_eq!(surface.goal, expected, "{norm:?}");
         }

@@ -6,9 +6,10 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, LayerKind, Mask, PositiveDepth, Quantity,
-    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm,
-    SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    BandLayer, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
+    LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, ShapeList, Shapes,
+    StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats,
+    ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -67,10 +68,10 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         2..5 => formula(choices, scale),
         5 if choices.below(2) == 0 => {
             let formula = Formula::parse("if(x < 0.4, 0.5 + 0.2 * y, inf)").unwrap();
-            LayerKind::Formula { quantity: Quantity::Error, formula }
+            FormulaLayer { quantity: Quantity::Error, formula }.into()
         }
         5 => LayerKind::risk(Formula::parse("exp(-30 * hypot(x - 0.6, y - 0.3))").unwrap()),
-        6 | 7 => LayerKind::Paint([Quantity::Risk, Quantity::Diameter, Quantity::Error][choices.below(3)]),
+        6 | 7 => LayerKind::paint([Quantity::Risk, Quantity::Diameter, Quantity::Error][choices.below(3)]),
         8..11 => raster(choices, diameter),
         11..13 => threats(choices, scale),
         13 => {
@@ -79,7 +80,7 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
                 0 => LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) }),
                 _ => {
                     let found = WaterMiddle::unknown(between);
-                    LayerKind::FeatureSize(FeatureSize { across: 3.0, found })
+                    FeatureSize { across: 3.0, found }.into()
                 }
             }
         }
@@ -111,7 +112,7 @@ fn surface(choices: &mut impl Choices) -> LayerKind {
         0 => SurfaceGoal::AtMost(1 + choices.below(3000)),
         _ => SurfaceGoal::Within(unit * (0.1 + choices.share())),
     };
-    LayerKind::Surface(Surface { source, goal, norm })
+    Surface { source, goal, norm }.into()
 }
 
 /// Returns a constant that is too fine for all of the domain: it needs a mask, or is refused.
@@ -173,10 +174,10 @@ fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
         4 => return LayerKind::Depth(Depths::new(source, depth_sizes(choices, diameter))),
         _ => {
             let from = choices.share();
-            return LayerKind::Band { source, between: [from, from + 0.3], diameter };
+            return LayerKind::Band(BandLayer { source, between: [from, from + 0.3], diameter });
         }
     };
-    LayerKind::Raster { source, reading }
+    RasterLayer { source, reading }.into()
 }
 
 /// Returns sizes of about a diameter in water of some metres.
@@ -207,7 +208,7 @@ fn threat(choices: &mut impl Choices, scale: Scale) -> Threat {
 
 fn threats(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let list = (0..choices.below(5)).map(|_| threat(choices, scale)).collect();
-    LayerKind::Threats(Threats::new(list).unwrap())
+    Threats::new(list).unwrap().into()
 }
 
 /// Returns pieces of the boundary of which some are there, by names and types that the marks change.
@@ -249,7 +250,7 @@ fn distance(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     if range.is_finite() && choices.below(3) == 0 {
         slope = 0.0;
     }
-    LayerKind::Distance { to, at_zero, slope, range }
+    DistanceLayer { to, at_zero, slope, range }.into()
 }
 
 /// Returns a layer with one number changed, by much or by little.
@@ -257,12 +258,12 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
     let factor = [0.5, 0.9, 1.1, 2.0, 1.0 - 1e-12, 1.0 + 1e-12][choices.below(6)];
     let mut kind = kind.clone();
     match &mut kind {
-        LayerKind::Paint(_) | LayerKind::Raster { .. } => return None,
-        LayerKind::Formula { formula, .. } => {
+        LayerKind::Paint(_) | LayerKind::Raster(_) => return None,
+        LayerKind::Formula(FormulaLayer { formula, .. }) => {
             *formula = Formula::constant_of((factor * formula.constant()?).max(scale.smallest));
         }
         LayerKind::Threats(threats) => *threats = other_threats(threats, choices, scale, factor)?,
-        LayerKind::Distance { at_zero, slope, range, to } => match choices.below(4) {
+        LayerKind::Distance(DistanceLayer { at_zero, slope, range, to }) => match choices.below(4) {
             0 => *at_zero = (factor * *at_zero).max(scale.smallest),
             1 => *slope = (factor * *slope).min(2.0),
             2 => *range *= factor,
@@ -271,7 +272,7 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
                 _ => return None,
             },
         },
-        LayerKind::Band { diameter, between, .. } => match choices.below(2) {
+        LayerKind::Band(BandLayer { diameter, between, .. }) => match choices.below(2) {
             0 => *diameter = (factor * *diameter).max(scale.diameter),
             _ => between[1] = (factor * between[1]).max(between[0]),
         },

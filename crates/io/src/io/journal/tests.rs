@@ -4,7 +4,7 @@ use super::*;
 use glam::dvec2;
 use left::KeptJournal;
 use meshbrush_core::document::{Document, Edits, Example, Setting, Settings};
-use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::layers::{Layer, LayerKind, RasterLayer, RasterReading, RasterSource};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use std::sync::Arc;
@@ -110,7 +110,7 @@ fn rasters_and_pictures_are_written_once() {
         let values = (0..100 * 100).map(|_| random.f32()).collect();
         let raster = Raster::from_values(meshbrush_mesh::geometry::Rect::UNIT, [100, 100], values);
         let source = RasterSource { name: name.into(), raster: Arc::new(RasterPyramid::new(raster)) };
-        LayerKind::Raster { source, reading: RasterReading::Risk }
+        RasterLayer { source, reading: RasterReading::Risk }.into()
     };
     let rgba = (0..4 * 100 * 100).map(|n: u32| (n * n % 251) as u8 | (n % 4 / 3 * 255) as u8).collect();
     let mut settings = Settings { layers: Layer::stack([raster("first")]), ..Settings::default() };

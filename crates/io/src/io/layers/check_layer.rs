@@ -9,8 +9,8 @@ use meshbrush_core::domain::{PieceChoice, Polygon};
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{
-    DepthSizes, DistanceTo, FeatureSize, LayerKind, Quantity, RasterReading, ShapeList, StraitDiscs, Straits,
-    SurfaceGoal, SurfaceNorm, Threat, ThreatError, ValueCurve, WaterMiddle,
+    DepthSizes, DistanceTo, FeatureSize, FormulaLayer, LayerKind, Quantity, RasterReading, ShapeList,
+    StraitDiscs, Straits, SurfaceGoal, SurfaceNorm, Threat, ThreatError, ValueCurve, WaterMiddle,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
@@ -143,7 +143,7 @@ impl SavedLayer {
                 "`layer` names a layer of the project `file`, which is missing.",
             ));
         }
-        Ok(CheckedKind::Complete(LayerKind::Paint(quantity.into())))
+        Ok(CheckedKind::Complete(LayerKind::paint(quantity.into())))
     }
 
     fn checked_formula(&self) -> Result<CheckedKind, KeyFault> {
@@ -153,7 +153,7 @@ impl SavedLayer {
             Quantity::Risk | Quantity::Error => Formula::parse,
         };
         let formula = compiled("formula", self.needed("formula", self.formula.as_deref())?, parse)?;
-        Ok(CheckedKind::Complete(LayerKind::Formula { quantity, formula }))
+        Ok(CheckedKind::Complete(LayerKind::Formula(FormulaLayer { quantity, formula })))
     }
 
     fn raster(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {

@@ -8,8 +8,8 @@ use super::{LoadedRaster, SavedLayer};
 use crate::io::{KeyFault, ValueFacts, ValueUnit};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth, RasterSource, ShapeList,
-    Shapes, Surface, SurfaceSource, Threat, Threats,
+    BandLayer, DepthSizes, Depths, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
+    RasterLayer, RasterSource, ShapeList, Shapes, Surface, SurfaceSource, Threat, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::text::abridged;
@@ -94,7 +94,9 @@ impl SavedLayer {
     pub fn load<D: LayerData>(&self, id: LayerId, data: &mut D) -> Result<Layer, D::Error> {
         let kind = match self.checked(D::STORED)? {
             CheckedKind::Complete(kind) => kind,
-            CheckedKind::Raster(reading) => LayerKind::Raster { source: self.source(data)?.0, reading },
+            CheckedKind::Raster(reading) => {
+                LayerKind::Raster(RasterLayer { source: self.source(data)?.0, reading })
+            }
             CheckedKind::Threats(Some(list)) => LayerKind::Threats(self.indexed_threats(list)?),
             CheckedKind::Threats(None) => LayerKind::Threats(data.threats(self)?),
             CheckedKind::Distance(to, Growth { at_zero, slope, range }) => {
@@ -102,17 +104,17 @@ impl SavedLayer {
                     Ok(shapes) => DistanceTo::Shapes { name: self.file_name(), shapes },
                     Err(boundary) => boundary,
                 };
-                LayerKind::Distance { to, at_zero, slope, range }
+                LayerKind::Distance(DistanceLayer { to, at_zero, slope, range })
             }
             CheckedKind::Corridor(along, Growth { at_zero, slope, range }, width) => {
                 let to = match self.target_of(along, data)? {
                     Ok(lines) => DistanceTo::Corridor { lines, width },
                     Err(boundary) => boundary,
                 };
-                LayerKind::Distance { to, at_zero, slope, range }
+                LayerKind::Distance(DistanceLayer { to, at_zero, slope, range })
             }
             CheckedKind::Band(between, diameter) => {
-                LayerKind::Band { source: self.source(data)?.0, between, diameter }
+                LayerKind::Band(BandLayer { source: self.source(data)?.0, between, diameter })
             }
             CheckedKind::Surface(goal, norm) => {
                 let (source, facts) = self.source(data)?;

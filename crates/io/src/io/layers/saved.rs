@@ -8,7 +8,10 @@ use super::{
 };
 use crate::io::RasterFormat;
 use crate::io::settings::SavedBoundaryType;
-use meshbrush_core::layers::{DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, Straits};
+use meshbrush_core::layers::{
+    BandLayer, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer, Layer, LayerKind, PaintLayer,
+    RasterLayer, RasterReading, Straits,
+};
 use meshbrush_core::raster::RasterValues;
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
@@ -233,15 +236,15 @@ impl SavedLayer {
     /// Returns a layer as [`Self::of`] does, without its shapes, its threats and its mask.
     pub fn without_lists(layer: &Layer, file: Option<PathBuf>) -> Self {
         let kind = match &layer.kind {
-            LayerKind::Paint(quantity) => {
+            LayerKind::Paint(PaintLayer { quantity }) => {
                 Self { quantity: Some((*quantity).into()), ..Self::of_kind(SavedKind::Paint) }
             }
-            LayerKind::Formula { quantity, formula } => Self {
+            LayerKind::Formula(FormulaLayer { quantity, formula }) => Self {
                 quantity: Some((*quantity).into()),
                 formula: Some(formula.source().to_owned()),
                 ..Self::of_kind(SavedKind::Formula)
             },
-            LayerKind::Raster { reading, .. } => Self {
+            LayerKind::Raster(RasterLayer { reading, .. }) => Self {
                 read_as: match reading {
                     RasterReading::Risk => Some(SavedQuantity::Risk),
                     RasterReading::Diameter => Some(SavedQuantity::Diameter),
@@ -255,10 +258,10 @@ impl SavedLayer {
                 ..Self::of_kind(SavedKind::Raster)
             },
             LayerKind::Threats(_) => Self::of_kind(SavedKind::Threats),
-            LayerKind::Distance { to, at_zero, slope, range } => {
+            LayerKind::Distance(DistanceLayer { to, at_zero, slope, range }) => {
                 Self::of_distance(to, [*at_zero, *slope, *range])
             }
-            LayerKind::Band { between, diameter, .. } => {
+            LayerKind::Band(BandLayer { between, diameter, .. }) => {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
             LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),

@@ -4,18 +4,18 @@ use glam::DVec2;
 
 use super::{SavedLaw, SavedLayer, SavedPolygon, SavedShape, SavedThreat};
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{Layer, LayerKind, ShapeList, Threat, ThreatLaw};
+use meshbrush_core::layers::{DistanceLayer, Layer, ShapeList, Threat, ThreatLaw, Threats};
 
 impl SavedLayer {
     /// Returns the shapes of a layer, if it has any.
     pub fn shapes_of(layer: &Layer) -> Option<Vec<SavedShape>> {
-        let LayerKind::Distance { to, .. } = &layer.kind else { return None };
+        let DistanceLayer { to, .. } = layer.kind.get()?;
         to.shapes().map(|shapes| SavedShape::of_list(shapes.list()))
     }
 
     /// Returns the threats of a layer, if it is one of threats.
     pub fn threats_of(layer: &Layer) -> Option<Vec<SavedThreat>> {
-        let LayerKind::Threats(threats) = &layer.kind else { return None };
+        let threats = layer.kind.get::<Threats>()?;
         Some(threats.list().iter().copied().map(SavedThreat::from).collect())
     }
 

@@ -213,9 +213,9 @@ fn the_kinds_and_their_keys_agree() {
 
 #[test]
 fn a_layer_of_a_stack_is_saved() {
-    use meshbrush_core::layers::{Combine, Layer, LayerKind, Quantity};
+    use meshbrush_core::layers::{Combine, FormulaLayer, Layer, LayerKind, Quantity};
     let formula = meshbrush_core::field::Formula::parse("x + 1").unwrap();
-    let kind = LayerKind::Formula { quantity: Quantity::Diameter, formula };
+    let kind = LayerKind::Formula(FormulaLayer { quantity: Quantity::Diameter, formula });
     let layer = Layer {
         mask: None,
         id: LayerId(3),

@@ -13,7 +13,7 @@ use super::lists::{self, ShapeSlices};
 use super::{BACKGROUND, pixels};
 use meshbrush_core::document::{Background, Picture, Settings};
 use meshbrush_core::domain::{Domain, Polygon, Region};
-use meshbrush_core::layers::{Layer, LayerKind, Mask, Shapes, Threats};
+use meshbrush_core::layers::{DistanceLayer, Layer, Mask, Shapes, Threats};
 use meshbrush_core::raster::RasterPyramid;
 
 /// Data with a part of its own. Documents share it, and it never changes.
@@ -36,7 +36,7 @@ impl PartData {
 
     /// Returns the shapes of a layer, if they are too many for the settings.
     pub fn shapes_of(layer: &Layer) -> Option<Self> {
-        let LayerKind::Distance { to, .. } = &layer.kind else { return None };
+        let DistanceLayer { to, .. } = layer.kind.get()?;
         let shapes = to.shapes()?;
         let is_long = shapes::places(shapes.list()).nth(MOST_IN_PLACE).is_some();
         is_long.then(|| Self::Shapes(shapes.clone()))
@@ -44,7 +44,7 @@ impl PartData {
 
     /// Returns the threats of a layer, if they are too many for the settings.
     pub fn threats_of(layer: &Layer) -> Option<Self> {
-        let LayerKind::Threats(threats) = &layer.kind else { return None };
+        let threats = layer.kind.get::<Threats>()?;
         (threats.list().len() > MOST_IN_PLACE).then(|| Self::Threats(threats.clone()))
     }
 

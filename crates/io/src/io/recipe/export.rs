@@ -14,8 +14,8 @@ use super::{MOST_BYTES, to_text, too_long};
 use meshbrush_core::document::{KeepOut, Settings};
 use meshbrush_core::domain::{MOST_CORNERS, Polygon, RegionError};
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Surface,
-    SurfaceSource, Threats,
+    BandLayer, DistanceLayer, DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterLayer, RasterReading,
+    RasterSource, ShapeList, Shapes, Surface, SurfaceSource, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -192,14 +192,14 @@ impl Plan {
     fn layer(&mut self, layer: &Layer) -> SavedLayer {
         let mut saved = SavedLayer::of(layer, None);
         match &layer.kind {
-            LayerKind::Raster { source, reading } => {
+            LayerKind::Raster(RasterLayer { source, reading }) => {
                 let infinity = match reading {
                     RasterReading::Curve(_) => AtInfinity::EndOfCurve,
                     _ => AtInfinity::Nothing,
                 };
                 self.put_grid(&mut saved, layer, source, infinity);
             }
-            LayerKind::Band { source, .. } => {
+            LayerKind::Band(BandLayer { source, .. }) => {
                 self.put_grid(&mut saved, layer, source, AtInfinity::Nothing);
             }
             LayerKind::Depth(depths) => {
@@ -213,10 +213,10 @@ impl Plan {
                 saved.file =
                     Some(self.add(&layer.name, "csv", ExportContent::Threats(threats.clone())).into());
             }
-            LayerKind::Distance {
+            LayerKind::Distance(DistanceLayer {
                 to: DistanceTo::Shapes { shapes, .. } | DistanceTo::Corridor { lines: shapes, .. },
                 ..
-            } if point_count(shapes.list()) > MOST_IN_PLACE => {
+            }) if point_count(shapes.list()) > MOST_IN_PLACE => {
                 saved.shapes = None;
                 saved.file =
                     Some(self.add(&layer.name, GEOJSON, ExportContent::Shapes(shapes.clone())).into());

@@ -11,7 +11,7 @@ use super::super::settings::{SavedDomain, SavedSettings, marks_of};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryPieces, PieceChoice};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, PaintLayers, RasterSource};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind, PaintLayers, RasterSource};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, short_name};
 
@@ -63,7 +63,8 @@ pub fn notes_on(
     let missing = missing_pieces(settings, &visible);
     let idle = settings.idle_layers(paint);
     let is_said = |layer: &Layer| {
-        let measures_to_pieces = matches!(&layer.kind, LayerKind::Distance { to: DistanceTo::Pieces(_), .. });
+        let measures_to_pieces =
+            matches!(&layer.kind, LayerKind::Distance(DistanceLayer { to: DistanceTo::Pieces(_), .. }));
         measures_to_pieces && !missing.is_empty()
     };
     let changes_nothing = |layer: &Layer| idle.contains(&layer.id) && !is_said(layer);
@@ -173,7 +174,9 @@ pub fn mark_notes(domain: &SavedDomain, settings: &Settings) -> MarkNotes {
 /// Returns the names of pieces of the boundary that visible layers measure to, and that no piece has.
 fn missing_pieces(settings: &Settings, visible: &[&Layer]) -> Vec<String> {
     let chosen = visible.iter().copied().filter_map(|layer| match &layer.kind {
-        LayerKind::Distance { to: DistanceTo::Pieces(chosen), .. } if !chosen.names.is_empty() => {
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Pieces(chosen), .. })
+            if !chosen.names.is_empty() =>
+        {
             Some((layer, chosen))
         }
         _ => None,

@@ -13,7 +13,7 @@ use super::notes::notes_on;
 use super::{LoadError, Loaded, Loading, Recipe, found_in};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, PaintLayers};
+use meshbrush_core::layers::{Depths, Layer, LayerId, PaintLayers};
 use meshbrush_core::raster::TiledRaster;
 use meshbrush_mesh::text::{LengthUnit, abridged};
 
@@ -146,7 +146,7 @@ impl SavedLayer {
     ) -> Result<LoadedLayer, LoadError> {
         let loaded = Files::for_document(settings, assumed, loading).one_layer(self, id)?;
         // A formula uses the depths of other layers; the rest would be asked again with every layer.
-        let gives_depths = |layer: &&Layer| layer.id != id && matches!(layer.kind, LayerKind::Depth(_));
+        let gives_depths = |layer: &&Layer| layer.id != id && layer.kind.is::<Depths>();
         let others = settings.layers.iter().filter(gives_depths).cloned();
         let layers = others.chain([loaded.layer.clone()]).collect();
         let with_layer = Settings { layers, ..settings.clone() };

@@ -13,7 +13,7 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, PositiveDepth};
+use meshbrush_core::layers::{Layer, LayerId, PositiveDepth, Surface};
 use meshbrush_core::surface::domain_on_samples;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, CoarseError, bisection_edge_length};
@@ -190,10 +190,7 @@ impl<L> SavedSettings<L> {
     fn on_samples(&self, layers: &[Layer]) -> Option<(Rect, f64)> {
         let SavedDomain { bounds, inside, .. } = &self.domain;
         let is_free = bounds.is_none() && inside.is_none() && self.domain.outline_file().is_none();
-        let mut rasters = layers.iter().filter_map(|layer| match &layer.kind {
-            LayerKind::Surface(surface) => surface.source.raster(),
-            _ => None,
-        });
+        let mut rasters = layers.iter().filter_map(|layer| layer.kind.get::<Surface>()?.source.raster());
         let source = rasters.next_back().filter(|_| is_free)?;
         domain_on_samples(source.raster.raster(), self.mesh.spacing)
     }

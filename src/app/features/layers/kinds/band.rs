@@ -6,13 +6,13 @@ use super::raster::source_rows;
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::OPEN_BAND;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
-use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::layers::{BandLayer, Layer, LayerKind};
 use meshbrush_ui::widgets::{Icon, NumberRow};
 
 /// A band of the values of a raster.
 pub static BAND: LayerKindRow = LayerKindRow {
     place: 6,
-    is_of: |kind| matches!(kind, LayerKind::Band { .. }),
+    is_of: |kind| kind.is::<BandLayer>(),
     icon: Icon::BAND,
     tool: None,
     additions: &[
@@ -23,7 +23,7 @@ pub static BAND: LayerKindRow = LayerKindRow {
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Band { source, between, diameter } = &layer.kind else { return };
+    let Some(BandLayer { source, between, diameter }) = layer.kind.get() else { return };
     let ([mut least, mut greatest], mut diameter) = (*between, *diameter);
     let row = NumberRow::new("Values from", &mut least).range(f64::MIN..=greatest);
     let mut changed = row.help("The least value of the raster in the band.").show(ui).changed();
@@ -36,6 +36,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     source_rows(ui, state, source);
     if changed {
         let source = source.clone();
-        set_kind_once(layer, LayerKind::Band { source, between: [least, greatest], diameter }, commands);
+        set_kind_once(layer, BandLayer { source, between: [least, greatest], diameter }, commands);
     }
 }

@@ -8,7 +8,7 @@ use crate::app::features::domain::DomainCommand;
 use crate::app::features::layers::{OPEN_DEPTH, way_to_metres};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
 use meshbrush_core::domain::DepthContour;
-use meshbrush_core::layers::{DepthRule, DepthSizes, Layer, LayerKind, PositiveDepth, wavelength};
+use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, Layer, LayerKind, PositiveDepth, wavelength};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::{
     ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
@@ -17,7 +17,7 @@ use meshbrush_ui::widgets::{
 /// Depths of water.
 pub static DEPTH: LayerKindRow = LayerKindRow {
     place: 7,
-    is_of: |kind| matches!(kind, LayerKind::Depth(_)),
+    is_of: |kind| kind.is::<Depths>(),
     icon: Icon::DEPTH,
     tool: None,
     additions: &[Addition {
@@ -68,7 +68,7 @@ impl Size {
 const POSITIVE: std::ops::RangeInclusive<f64> = f64::MIN_POSITIVE..=f64::MAX;
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Depth(depths) = &layer.kind else { return };
+    let Some(depths) = layer.kind.get::<Depths>() else { return };
     let before = *depths.sizes();
     let mut sizes = before;
     let choices = [(PositiveDepth::Up, "Heights"), (PositiveDepth::Down, "Depths")];
@@ -95,7 +95,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     ValueRow::new("Depth at the pointer", &depth).help("In metres; below 0 on land.").show(ui);
     contour_rows(ui, state, layer, commands);
     if sizes != before && sizes.check().is_ok() {
-        set_kind_once(layer, LayerKind::Depth(depths.with_sizes(sizes)), commands);
+        set_kind_once(layer, depths.with_sizes(sizes), commands);
     }
 }
 

@@ -8,16 +8,13 @@ use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryType, PieceChoice};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
 use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 
 /// The distance to shapes or to the outline of the domain.
 pub static DISTANCE: LayerKindRow = LayerKindRow {
     place: 4,
-    is_of: |kind| {
-        let LayerKind::Distance { to, .. } = kind else { return false };
-        !matches!(to, DistanceTo::Corridor { .. })
-    },
+    is_of: |kind| kind.get().is_some_and(|distance: &DistanceLayer| !distance.to.is_corridor()),
     icon: Icon::DISTANCE,
     tool: None,
     additions: &[
@@ -46,7 +43,7 @@ fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
 }
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Distance { to, at_zero, slope, range } = &layer.kind else { return };
+    let Some(DistanceLayer { to, at_zero, slope, range }) = layer.kind.get() else { return };
     let target = match to {
         DistanceTo::Outline => "outline of the domain",
         DistanceTo::Coasts => "coasts of the domain",
@@ -71,7 +68,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     changed |= row.help(help).show(ui).changed();
     changed |= range_rows(ui, state, &mut range);
     if changed {
-        set_kind_once(layer, LayerKind::Distance { to: to.clone(), at_zero, slope, range }, commands);
+        set_kind_once(layer, DistanceLayer { to: to.clone(), at_zero, slope, range }, commands);
     }
 }
 

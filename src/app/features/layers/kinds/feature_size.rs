@@ -12,7 +12,7 @@ use meshbrush_ui::widgets::Icon;
 /// Triangles across the water.
 pub static FEATURE_SIZE: LayerKindRow = LayerKindRow {
     place: 9,
-    is_of: |kind| matches!(kind, LayerKind::FeatureSize(_)),
+    is_of: |kind| kind.is::<FeatureSize>(),
     icon: Icon::FEATURE_SIZE,
     tool: None,
     additions: &[Addition {
@@ -23,7 +23,7 @@ pub static FEATURE_SIZE: LayerKindRow = LayerKindRow {
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::FeatureSize(FeatureSize { across, found }) = &layer.kind else { return };
+    let Some(FeatureSize { across, found }) = layer.kind.get() else { return };
     let rows = WaterRows {
         across: *across,
         between: found.between(),
@@ -38,6 +38,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     }
     if let Some(ChangedWater { across, between }) = changed {
         let found = between.map_or_else(|| found.clone(), |between| WaterMiddle::of(domain, marks, between));
-        set_kind_once(layer, LayerKind::FeatureSize(FeatureSize { across, found }), commands);
+        set_kind_once(layer, FeatureSize { across, found }, commands);
     }
 }

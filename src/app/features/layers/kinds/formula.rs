@@ -10,13 +10,13 @@ use crate::app::command::Command;
 use crate::app::kit::{Addition, FormulaRow, FrameState, LayerKindRow, add_layer, set_kind_once};
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
-use meshbrush_core::layers::{Layer, LayerKind, Quantity};
+use meshbrush_core::layers::{FormulaLayer, Layer, LayerKind, Quantity};
 use meshbrush_ui::widgets::{Icon, NumberRow, segmented};
 
 /// A formula in x and y.
 pub static FORMULA: LayerKindRow = LayerKindRow {
     place: 1,
-    is_of: |kind| matches!(kind, LayerKind::Formula { .. }),
+    is_of: |kind| kind.is::<FormulaLayer>(),
     icon: Icon::FORMULA,
     tool: None,
     additions: &[
@@ -35,12 +35,12 @@ pub static FORMULA: LayerKindRow = LayerKindRow {
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Formula { quantity, formula } = &layer.kind else { return };
+    let Some(FormulaLayer { quantity, formula }) = layer.kind.get() else { return };
     let mut chosen = *quantity;
     let choices = [Quantity::Diameter, Quantity::Risk, Quantity::Error]
         .map(|quantity| (quantity, quantity_name(quantity)));
     if segmented(ui, "What the formula gives", &mut chosen, &choices).changed() {
-        let kind = LayerKind::Formula { quantity: chosen, formula: formula.clone() };
+        let kind = LayerKind::Formula(FormulaLayer { quantity: chosen, formula: formula.clone() });
         set_kind_once(layer, kind, commands);
     }
     ui.add_space(4.0);
@@ -74,7 +74,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         Quantity::Risk | Quantity::Error => row.show(ui, state, Some(formula)),
     };
     if let Some(Some(formula)) = entered {
-        set_kind_once(layer, LayerKind::Formula { quantity: *quantity, formula }, commands);
+        set_kind_once(layer, FormulaLayer { quantity: *quantity, formula }, commands);
     }
 }
 

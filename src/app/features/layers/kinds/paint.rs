@@ -5,32 +5,32 @@ use eframe::egui::Ui;
 use super::quantity_name;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer};
-use meshbrush_core::layers::{Layer, LayerKind, Quantity};
+use meshbrush_core::layers::{Layer, LayerKind, PaintLayer, Quantity};
 use meshbrush_mesh::text::Bytes;
 use meshbrush_ui::widgets::{ActionButton, Icon, ValueRow};
 
 /// Painted risk and painted diameters.
 pub static PAINT: LayerKindRow = LayerKindRow {
     place: 0,
-    is_of: |kind| matches!(kind, LayerKind::Paint(_)),
+    is_of: |kind| kind.is::<PaintLayer>(),
     icon: Icon::BRUSH,
     tool: None,
     additions: &[
-        Addition { title: "paint, as risk", command: |_| add_layer(LayerKind::Paint(Quantity::Risk)) },
+        Addition { title: "paint, as risk", command: |_| add_layer(LayerKind::paint(Quantity::Risk)) },
         Addition {
             title: "paint, as target diameter",
-            command: |_| add_layer(LayerKind::Paint(Quantity::Diameter)),
+            command: |_| add_layer(LayerKind::paint(Quantity::Diameter)),
         },
         Addition {
             title: "paint, as largest error from surfaces",
-            command: |_| add_layer(LayerKind::Paint(Quantity::Error)),
+            command: |_| add_layer(LayerKind::paint(Quantity::Error)),
         },
     ],
     parameters,
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Paint(quantity) = layer.kind else { return };
+    let Some(quantity) = layer.paints() else { return };
     let help = "What the pixels mean: a risk from 0 to 1, or a target diameter in the unit of the document, or \
                 the largest error of the mesh from surfaces, in their unit.";
     ValueRow::new("Painted as", quantity_name(quantity)).help(help).show(ui);

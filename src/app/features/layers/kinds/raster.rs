@@ -12,14 +12,14 @@ use crate::app::kit::{
 };
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
+use meshbrush_core::layers::{Layer, LayerKind, RasterLayer, RasterReading, RasterSource, ValueCurve};
 use meshbrush_core::raster::check_values;
 use meshbrush_ui::widgets::{Icon, ValueRow, format, segmented};
 
 /// A picture or a grid.
 pub static RASTER: LayerKindRow = LayerKindRow {
     place: 2,
-    is_of: |kind| matches!(kind, LayerKind::Raster { .. }),
+    is_of: |kind| kind.is::<RasterLayer>(),
     icon: Icon::RASTER,
     tool: None,
     additions: &[
@@ -63,12 +63,12 @@ impl Meaning {
 }
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Raster { source, reading } = &layer.kind else { return };
+    let Some(RasterLayer { source, reading }) = layer.kind.get() else { return };
     let mut meaning = Meaning::of(reading);
     if segmented(ui, "What the values mean", &mut meaning, &Meaning::CHOICES).changed() {
         match read_as(meaning, source, reading, &state.session.document().settings().transfer) {
             Ok(reading) => {
-                set_kind_once(layer, LayerKind::Raster { source: source.clone(), reading }, commands);
+                set_kind_once(layer, RasterLayer { source: source.clone(), reading }, commands);
             }
             Err(problem) => commands.push(Command::from(ShellCommand::Report(problem))),
         }
@@ -90,7 +90,7 @@ fn curve_controls(
 ) {
     let kind = |curve| {
         let reading = RasterReading::Curve(Arc::new(curve));
-        LayerKind::Raster { source: source.clone(), reading }
+        LayerKind::from(RasterLayer { source: source.clone(), reading })
     };
     ui.add_space(4.0);
     let (plotted, response) = curve_plot(ui, state, source, curve);

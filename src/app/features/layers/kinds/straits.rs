@@ -13,7 +13,7 @@ use meshbrush_ui::widgets::{Icon, ValueRow, format};
 /// Triangles across straits.
 pub static STRAITS: LayerKindRow = LayerKindRow {
     place: 8,
-    is_of: |kind| matches!(kind, LayerKind::Straits(_)),
+    is_of: |kind| kind.is::<Straits>(),
     icon: Icon::STRAITS,
     tool: None,
     additions: &[Addition {
@@ -24,7 +24,7 @@ pub static STRAITS: LayerKindRow = LayerKindRow {
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Straits(Straits { across, found }) = &layer.kind else { return };
+    let Some(Straits { across, found }) = layer.kind.get() else { return };
     let rows = WaterRows {
         across: *across,
         between: found.between(),
@@ -42,7 +42,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     }
     if let Some(ChangedWater { across, between }) = changed {
         let found = between.map_or_else(|| found.clone(), |between| StraitDiscs::of(domain, marks, between));
-        set_kind_once(layer, LayerKind::Straits(Straits { across, found }), commands);
+        set_kind_once(layer, Straits { across, found }, commands);
     }
 }
 

@@ -17,7 +17,7 @@ use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, seg
 /// A raster or a formula as a surface.
 pub static SURFACE: LayerKindRow = LayerKindRow {
     place: 10,
-    is_of: |kind| matches!(kind, LayerKind::Surface(_)),
+    is_of: |kind| kind.is::<Surface>(),
     icon: Icon::SURFACE,
     tool: None,
     additions: &[
@@ -65,7 +65,7 @@ impl GivenGoal {
 }
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
-    let LayerKind::Surface(surface) = &layer.kind else { return };
+    let Some(surface) = layer.kind.get::<Surface>() else { return };
     let Surface { source, goal, norm } = surface;
     norm_row(ui, state, layer, surface, commands);
     goal_rows(ui, state, layer, surface, commands);
@@ -84,11 +84,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
             };
             if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
                 let source = SurfaceSource::Formula(formula);
-                set_kind_once(
-                    layer,
-                    LayerKind::Surface(Surface { source, goal: *goal, norm: *norm }),
-                    commands,
-                );
+                set_kind_once(layer, Surface { source, goal: *goal, norm: *norm }, commands);
             }
         }
     }
@@ -113,7 +109,7 @@ fn norm_row(
             (SurfaceGoal::Within(_), Some(error)) => SurfaceGoal::Within(round_below(error)),
             (goal, _) => goal,
         };
-        set_kind_once(layer, LayerKind::Surface(Surface { goal, norm, ..surface.clone() }), commands);
+        set_kind_once(layer, Surface { goal, norm, ..surface.clone() }, commands);
     }
 }
 
@@ -166,7 +162,7 @@ fn other_goal(state: &FrameState<'_>, layer: &Layer, given: GivenGoal) -> Surfac
 }
 
 fn usual_error(layer: &Layer) -> Option<f64> {
-    let LayerKind::Surface(Surface { source, .. }) = &layer.kind else { return None };
+    let Surface { source, .. } = layer.kind.get()?;
     LayerKind::usual_error(source.raster()?)
 }
 

@@ -18,7 +18,10 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryType};
-use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
+use meshbrush_core::layers::{
+    BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerId, LayerKind, RasterLayer, RasterReading,
+    RasterSource,
+};
 
 /// Four pixels over the unit square; the last has no value.
 const DEPTHS: &str = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n\
@@ -49,13 +52,13 @@ fn source(window: &Window) -> RasterSource {
 }
 
 fn band(window: &Window) -> ([f64; 2], f64) {
-    let LayerKind::Band { between, diameter, .. } = active(window).kind else { panic!("a band") };
+    let LayerKind::Band(BandLayer { between, diameter, .. }) = active(window).kind else { panic!("a band") };
     (between, diameter)
 }
 
 fn knots(window: &Window) -> Vec<[f64; 2]> {
     match &active(window).kind {
-        LayerKind::Raster { reading: RasterReading::Curve(curve), .. } => curve.knots().to_vec(),
+        LayerKind::Raster(RasterLayer { reading: RasterReading::Curve(curve), .. }) => curve.knots().to_vec(),
         other => panic!("no curve: {other:?}"),
     }
 }
@@ -98,7 +101,7 @@ fn without_a_raster_a_band_is_made_of_a_file() {
     assert!(window.query_by_label_contains("Open picture or grid as band").is_some(), "it asks for a file");
     let before = triangles(&window);
     type_into(&mut window, "Path", depths.to_str().unwrap());
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Band { .. }));
+    wait_until(&mut window, |window| active(window).kind.is::<BandLayer>());
     assert_eq!((band(&window).0, active(&window).name.as_str()), ([0.0, 30.0], "depths.asc"));
     assert!(triangles(&window) > before && entries(&window) == 1);
     // The pixel of value 0 is the upper right one.
@@ -243,7 +246,7 @@ fn a_grid_of_diameters_goes_through_a_curve_and_back() {
     // The pixel without a value asks for nothing, and is no end of the curve.
     assert_eq!(knots(&window), [[0.5, transfer.h_min], [2.0, transfer.h_max]]);
     choose_in(&mut window, "What the values mean", "Diameter");
-    let LayerKind::Raster { reading, .. } = &active(&window).kind else { panic!("a raster") };
+    let Some(RasterLayer { reading, .. }) = active(&window).kind.get() else { panic!("a raster") };
     assert_eq!((reading, entries(&window)), (&RasterReading::Diameter, 3));
 }
 
@@ -257,7 +260,7 @@ fn distances_are_measured_to_shapes_of_a_file() {
     let coarse = level_at(&window, at_road);
     add_by_button(&mut window, "distance to shapes…");
     type_into(&mut window, "Path", road.to_str().unwrap());
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Distance { .. }));
+    wait_until(&mut window, |window| active(window).kind.is::<DistanceLayer>());
     assert_eq!(value_of(&window, Role::Definition, "Distance to"), "road.geojson");
     assert!(level_at(&window, at_road) > coarse);
     type_into(&mut window, "At distance 0", "0.01");
@@ -265,11 +268,17 @@ fn distances_are_measured_to_shapes_of_a_file() {
     type_into(&mut window, "Path", site.to_str().unwrap());
     let is_to = |window: &Window, name: &str| value_of(window, Role::Definition, "Distance to") == name;
     wait_until(&mut window, |window| is_to(window, "site.geojson"));
-    assert!(matches!(active(&window).kind, LayerKind::Distance { at_zero: 0.01, .. }), "its numbers stay");
+    assert!(
+        matches!(active(&window).kind, LayerKind::Distance(DistanceLayer { at_zero: 0.01, .. })),
+        "its numbers stay"
+    );
     assert_eq!((level_at(&window, at_road), entries(&window)), (coarse, 3));
     assert!(level_at(&window, at_site) > coarse);
     click_button(&mut window, "Use outline");
-    assert!(matches!(active(&window).kind, LayerKind::Distance { to: DistanceTo::Outline, .. }));
+    assert!(matches!(
+        active(&window).kind,
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Outline, .. })
+    ));
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert!(is_to(&window, "site.geojson"));
     fs::write(&site, "{").unwrap();
@@ -298,7 +307,7 @@ fn distances_are_measured_to_chosen_pieces_of_the_boundary() {
     toggle(&mut window, "open west");
     assert!(level_at(&window, west) == fine && level_at(&window, south) < fine);
     let chosen = |window: &Window| match &active(window).kind {
-        LayerKind::Distance { to: DistanceTo::Pieces(chosen), .. } => chosen.names.clone(),
+        LayerKind::Distance(DistanceLayer { to: DistanceTo::Pieces(chosen), .. }) => chosen.names.clone(),
         other => panic!("a distance to pieces: {other:?}"),
     };
     toggle(&mut window, "open south");
@@ -331,7 +340,7 @@ fn a_formula_of_the_depth_needs_a_layer_of_depths() {
     wait_until(&mut window, |window| active(window).name == "depths.asc");
     select(&mut window, "Base");
     type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.01*abs(depth)");
-    let LayerKind::Formula { formula, .. } = &active(&window).kind else { panic!("a formula") };
+    let Some(FormulaLayer { formula, .. }) = active(&window).kind.get() else { panic!("a formula") };
     assert!(formula.uses_depth());
     // 30 m deep, at the shore, 60 m high, and unknown.
     let session = window.state().session();

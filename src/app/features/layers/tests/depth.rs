@@ -15,7 +15,7 @@ use crate::app::tests::{
 };
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Example, Setting};
-use meshbrush_core::layers::{DepthRule, DepthSizes, LayerKind, PositiveDepth, Straits};
+use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth, Straits};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -27,7 +27,7 @@ fn heights() -> String {
 }
 
 fn sizes(window: &Window) -> DepthSizes {
-    let LayerKind::Depth(depths) = &active(window).kind else { panic!("depths: {:?}", active(window)) };
+    let Some(depths) = active(window).kind.get::<Depths>() else { panic!("depths: {:?}", active(window)) };
     *depths.sizes()
 }
 
@@ -39,7 +39,7 @@ fn a_grid_of_heights_gives_sizes_and_the_depths_in_files() {
     let mut window = window_of(TALL);
     send(&mut window, Command::from(FileCommand::New));
     send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Depths>());
     assert_eq!(
         (sizes(&window).positive, sizes(&window).rule),
         (PositiveDepth::Up, DepthRule::USUAL_WAVELENGTH)
@@ -77,7 +77,7 @@ fn sizes_need_a_document_in_metres() {
     let mut window = window_of(TALL);
     send(&mut window, Command::from(EditCommand::Set(Setting::LengthUnit(LengthUnit::Kilometre))));
     send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Depths>());
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
     click_on(&mut window, Role::RadioButton, "Wavelength");
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
@@ -155,7 +155,7 @@ fn straits_are_found_again_when_the_outline_changes() {
     let first = found(&window);
     type_into(&mut window, "Triangles across", "1");
     assert!(found(&window) == first, "another number needs no other straits");
-    let LayerKind::Straits(Straits { across, .. }) = &active(&window).kind else { panic!("straits") };
+    let Some(Straits { across, .. }) = active(&window).kind.get() else { panic!("straits") };
     assert_eq!(*across, 1.0);
     let mut domain = settings(&window).domain.clone();
     let rings = domain.region().unwrap().polygons()[0][0].clone();
@@ -182,7 +182,7 @@ fn the_overlays_of_depths_have_the_colours_of_their_legends() {
     send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Depth)));
     assert!(window.query_by_label_contains("Legend: no layer of depths").is_some());
     send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Depths>());
     for overlay in [FieldOverlay::Depth, FieldOverlay::DepthError] {
         send(&mut window, Command::from(ViewCommand::SetOverlay(overlay)));
         window.hover_at(RESTING_PLACE);

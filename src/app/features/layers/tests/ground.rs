@@ -14,7 +14,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
-use meshbrush_core::layers::{DepthRule, LayerKind};
+use meshbrush_core::layers::{DepthRule, Depths};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -39,7 +39,7 @@ fn grid(test: &str, [left, bottom]: [f64; 2], side: f64, system: Option<&str>) -
 }
 
 fn rule(window: &Window) -> DepthRule {
-    let LayerKind::Depth(depths) = &active(window).kind else { panic!("depths: {:?}", active(window)) };
+    let Some(depths) = active(window).kind.get::<Depths>() else { panic!("depths: {:?}", active(window)) };
     depths.sizes().rule
 }
 
@@ -128,7 +128,7 @@ fn depths_in_a_document_without_metres_say_what_they_lack() {
         let mut window = window_of(TALL);
         send(&mut window, Command::from(EditCommand::Set(Setting::LengthUnit(unit))));
         send(&mut window, Command::from(LayerCommand::OpenDepth(file.clone())));
-        wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+        wait_until(&mut window, |window| active(window).kind.is::<Depths>());
         let said = wait_for_notice(&mut window);
         assert!(said.contains("asks for no sizes") && said.contains("“Depth of water”"), "{unit:?}: {said}");
         assert_eq!(rule(&window), DepthRule::Nothing);
@@ -183,7 +183,7 @@ fn a_contour_without_an_open_side_is_told() {
     fs::write(&file, header.to_owned() + &rows.join("\n")).unwrap();
     let mut window = window_of(TALL);
     send(&mut window, Command::from(LayerCommand::OpenDepth(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Depths>());
     begin_contour(&mut window);
     step_until(&mut window, |window| notice(window).contains("Nothing of its boundary is open"));
 }

@@ -18,7 +18,9 @@ use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::Domain;
-use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading};
+use meshbrush_core::layers::{
+    Combine, FormulaLayer, Layer, LayerId, LayerKind, Mask, Quantity, RasterLayer, RasterReading,
+};
 use meshbrush_mesh::text::LengthUnit;
 
 /// A place in the first example where risk is painted.
@@ -163,7 +165,7 @@ fn a_layer_is_duplicated_with_its_paint_and_deleted() {
     assert_eq!(names(&window), ["Painted diameter", "Base"]);
     assert_eq!(active(&window).name, "Painted diameter", "the one below is selected");
     assert!(triangles(&window) < before / 2);
-    add(&mut window, LayerKind::Paint(Quantity::Risk));
+    add(&mut window, LayerKind::paint(Quantity::Risk));
     assert!(triangles(&window) < before / 2, "a new layer is blank");
     for _ in 0..4 {
         key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -313,11 +315,14 @@ fn a_formula_layer_has_its_quantity_its_number_and_its_formula() {
     type_into(&mut window, "Diameter", "0.1");
     assert_eq!(layer(0, &window).kind, LayerKind::constant(0.1));
     type_into(&mut window, "Target diameter h̄(x, y)", "0.05 + 0.1*x");
-    let LayerKind::Formula { formula, .. } = &layer(0, &window).kind else { panic!("a formula") };
+    let Some(FormulaLayer { formula, .. }) = layer(0, &window).kind.get() else { panic!("a formula") };
     assert_eq!(formula.source(), "0.05 + 0.1*x");
     assert!(window.query_by_role_and_label(Role::TextInput, "Diameter").is_none(), "it is no constant");
     choose_in(&mut window, "What the formula gives", "Risk");
-    assert!(matches!(layer(0, &window).kind, LayerKind::Formula { quantity: Quantity::Risk, .. }));
+    assert!(matches!(
+        layer(0, &window).kind,
+        LayerKind::Formula(FormulaLayer { quantity: Quantity::Risk, .. })
+    ));
     type_into(&mut window, "Risk at (x, y)", "0.5");
     let before = entries(&window);
     key(&mut window, Modifiers::COMMAND, Key::Z);
@@ -344,7 +349,7 @@ fn a_raster_layer_shows_its_file_its_pixels_and_how_it_is_read() {
     assert!(value_of(&window, Role::Definition, "Pixels").contains('×'));
     assert!(!value_of(&window, Role::Definition, "File").is_empty());
     let reading = |window: &Window| match &active(window).kind {
-        LayerKind::Raster { reading, .. } => reading.clone(),
+        LayerKind::Raster(RasterLayer { reading, .. }) => reading.clone(),
         other => panic!("{other:?}"),
     };
     assert_eq!(reading(&window), RasterReading::Risk);
@@ -380,7 +385,7 @@ fn a_stroke_without_a_usable_layer_offers_what_helps() {
 #[test]
 fn the_brush_paints_on_the_selected_layer_and_its_choice_selects_one() {
     let mut window = window_of(TALL);
-    add(&mut window, LayerKind::Paint(Quantity::Risk));
+    add(&mut window, LayerKind::paint(Quantity::Risk));
     let new = active(&window).id;
     stroke(&mut window, FREE, FREE);
     let is_painted =

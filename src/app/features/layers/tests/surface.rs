@@ -23,7 +23,9 @@ use meshbrush_core::layers::{
 };
 
 fn goal(window: &Window) -> SurfaceGoal {
-    let LayerKind::Surface(surface) = &active(window).kind else { panic!("a surface: {:?}", active(window)) };
+    let Some(surface) = active(window).kind.get::<Surface>() else {
+        panic!("a surface: {:?}", active(window))
+    };
     surface.goal
 }
 
@@ -44,7 +46,7 @@ fn the_mesh_follows_an_error_or_a_number_of_triangles() {
     let mut window = window_of(TALL);
     send(&mut window, Command::from(FileCommand::New));
     send(&mut window, Command::from(LayerCommand::OpenSurface(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Surface>());
     let bounds = settings(&window).domain.bounds;
     assert_eq!([bounds.min.x, bounds.max.y], [0.0, 640.0], "nodes are at the centres of pixels");
     assert_eq!((goal(&window), settings(&window).spacing), (SurfaceGoal::Within(1.0), 40.0));
@@ -78,7 +80,7 @@ fn the_error_of_a_surface_is_said_to_be_measured_until_it_is() {
     let source = SurfaceSource::Formula(Formula::parse("sin(9 * x)").unwrap());
     let surface = Surface { source, goal: SurfaceGoal::Within(0.05), norm: SurfaceNorm::Largest };
     let mut layers = settings(&window).layers.clone();
-    layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
+    layers.push(Layer::new(LayerId(70), "Hills", surface));
     window.state_mut().send(Command::from(EditCommand::Set(Setting::Layers(layers))));
     window.state_mut().send(Command::from(LayerCommand::Select(LayerId(70))));
     window.run_steps(20);
@@ -93,7 +95,7 @@ fn a_painted_error_counts_in_place_of_that_of_the_surface() {
     send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::usual_surface(&bounds)))));
     wait_for_jobs(&mut window);
     let before = triangles(&window);
-    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Error)))));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::paint(Quantity::Error)))));
     assert_eq!(window.state().tools().kind, PaintKind::Error, "the layer chooses what is painted");
     let SurfaceGoal::Within(own) = settings(&window).surfaces().next().unwrap().1.goal else {
         panic!("an error")
@@ -126,7 +128,7 @@ fn the_area_with_values_becomes_the_domain() {
     let mut window = window_of(TALL);
     send(&mut window, Command::from(FileCommand::New));
     send(&mut window, Command::from(LayerCommand::OpenSurface(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Surface>());
     wait_for_jobs(&mut window);
     let shown = window.query_by_label_contains("Without a value").is_some();
     assert!(shown && settings(&window).domain.region().is_none());
@@ -152,7 +154,7 @@ fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
     send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     assert!(window.query_by_label_contains("Legend: no layer of a surface").is_some());
     send(&mut window, Command::from(LayerCommand::OpenSurface(file)));
-    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    wait_until(&mut window, |window| active(window).kind.is::<Surface>());
     // A document of the extent of the surface has taken the place of the empty one.
     send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     window.hover_at(RESTING_PLACE);

@@ -11,7 +11,7 @@ use crate::app::tests::{
     active, choose_in_palette, click_button, entries, move_to, notice, press, release, send, settings,
     triangles,
 };
-use meshbrush_core::layers::{DistanceTo, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo};
 
 const ADD: &str = "Add layer: corridor along the paths";
 
@@ -21,7 +21,8 @@ fn points(window: &Window) -> Vec<DVec2> {
 
 /// Returns the line and the width of the selected corridor.
 fn corridor(window: &Window) -> (Vec<DVec2>, f64) {
-    let LayerKind::Distance { to: DistanceTo::Corridor { lines, width }, .. } = &active(window).kind else {
+    let Some(DistanceLayer { to: DistanceTo::Corridor { lines, width }, .. }) = active(window).kind.get()
+    else {
         panic!("{:?} is no corridor", active(window).kind)
     };
     (lines.list().lines[0].clone(), *width)

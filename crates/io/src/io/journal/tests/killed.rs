@@ -183,7 +183,7 @@ fn kill_at_random_moments(seed: u64) -> u64 {
         let values = (0..side * side).map(|_| numbers.f32()).collect();
         let raster = Raster::from_values(meshbrush_mesh::geometry::Rect::UNIT, [side; 2], values);
         let source = RasterSource { name: "noise".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-        LayerKind::Raster { source, reading: RasterReading::Risk }
+        RasterLayer { source, reading: RasterReading::Risk }.into()
     };
     let mut document = if seed.is_multiple_of(2) { light(raster()) } else { heavy(300) };
     let journal = begin(&folder, &document, 0);
