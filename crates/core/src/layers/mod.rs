@@ -55,7 +55,7 @@ pub use feature_size::{FeatureSize, WaterMiddle};
 pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};
 pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
-pub(crate) use models::ModelPlace;
+pub(crate) use models::ModelDomain;
 pub use node_depths::{DepthFit, NoDepth, NodeDepths};
 pub use paint_layers::PaintLayers;
 pub use risk::RiskField;

@@ -219,7 +219,7 @@ impl SizeField {
         self.has_pixels_only
     }
 
-    /// Returns the least and the greatest diameter that pixels which touch a triangle ask for, and whether
+    /// Returns the minimum and the maximum target diameter over the pixels that touch a triangle, and whether
     /// the triangle exceeds its target. For a field that [`Self::has_pixels_only`]; `None` where the pixels
     /// are too many, or not quick to read.
     pub(super) fn asked_by_pixels(

@@ -7,7 +7,7 @@ use crate::layers::{PaintLayers, SizeField};
 
 use super::gradation::{GradationSearch, SearchedPart, quarter_bits};
 use super::parts::KnownParts;
-use super::place::{Place, TriangleInWorld};
+use super::place::{ConvexSet, TriangleInWorld};
 
 /// The least h̄ in a closed triangle.
 pub struct Least {
