@@ -1,8 +1,8 @@
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
 use super::engine::parts::PartId;
-use super::engine::patch::Patch;
-use super::engine::reading::{Answer, largest_below};
+use super::engine::patch::TouchedCells;
+use super::engine::reading::{RangeAnswer, largest_below};
 use super::engine::search::any_cell;
 use super::engine::{CompiledLayer, CompiledPlane, KnownParts, gradation};
 use super::{Combine, Layer, LayerId, LayerKind, PaintLayers, Shapes, settled};
@@ -287,7 +287,7 @@ impl SizeField {
                 }
             } else if !layer.is_masked_out(&around, &self.lattice) {
                 let mut ask =
-                    |cells: &Cells| self.asks(count, paint, &Patch::touching(*cells, triangle), limit);
+                    |cells: &Cells| self.asks(count, paint, &TouchedCells::touching(*cells, triangle), limit);
                 return any_cell(triangle, around, &mut ask);
             }
             count -= 1;
@@ -297,10 +297,16 @@ impl SizeField {
 
     /// Returns the share of some cells in which the lowest `count` layers together ask for less than a limit,
     /// and the cut that divides them for a closer answer.
-    fn asks(&self, count: usize, paint: &PaintLayers, patch: &Patch, limit: usize) -> (Share, Option<Cut>) {
+    fn asks(
+        &self,
+        count: usize,
+        paint: &PaintLayers,
+        patch: &TouchedCells,
+        limit: usize,
+    ) -> (Share, Option<Cut>) {
         let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
         let layer = &self.layers[below];
-        let (Answer { asks, present }, cut) = layer.answer(paint, patch, limit, &self.lattice);
+        let (RangeAnswer { asks, present }, cut) = layer.answer(paint, patch, limit, &self.lattice);
         let permits = present.not().or(asks);
         match layer.combine {
             Combine::Finest if asks == Share::All => return (Share::All, None),

@@ -13,7 +13,7 @@ use super::cells::{Cells, Cut};
 use super::compiled::Carried;
 use super::cone::Cone;
 use super::convex::Convex;
-use super::patch::Patch;
+use super::patch::TouchedCells;
 use super::steepness::Slopes;
 
 /// A function of the point, and what its values mean.
@@ -325,7 +325,7 @@ impl Analytic {
     }
 
     /// Returns a narrower range of the values of some cells than [`Self::range`], if one is known.
-    pub fn range_in(&self, patch: &Patch, lattice: &Lattice) -> Option<ValueRange> {
+    pub fn range_in(&self, patch: &TouchedCells, lattice: &Lattice) -> Option<ValueRange> {
         let cut = patch.cut_centers(lattice);
         let bounds = match &self.function {
             Function::Distance { shapes, profile } => {

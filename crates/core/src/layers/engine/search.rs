@@ -8,7 +8,7 @@ use crate::raster::{ValueRange, ValueRanges};
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::pixels::range_touching;
-use super::reading::Question;
+use super::reading::ValueTest;
 
 /// Returns whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where
 /// `ask` says so.
@@ -99,7 +99,7 @@ fn look(
 pub struct RasterSearch<'a, R> {
     pub raster: &'a R,
     pub grid: &'a GridOnLattice,
-    pub question: Question<'a>,
+    pub question: ValueTest<'a>,
 }
 
 impl<R: ValueRanges> RasterSearch<'_, R> {
