@@ -9,7 +9,7 @@ use super::{
 use crate::io::layers::{
     CheckedKind, FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
 };
-use crate::io::{KeyFault, RasterFormat, Step};
+use crate::io::{KeyFault, KeyStep, RasterFormat};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
 use meshbrush_core::domain::{DepthContour, DepthContourError};
@@ -371,6 +371,6 @@ impl SavedPins {
     }
 }
 
-fn length(key: impl Into<Step>, value: f64) -> Result<(), KeyFault> {
+fn length(key: impl Into<KeyStep>, value: f64) -> Result<(), KeyFault> {
     positive_length(value).map(|_| ()).map_err(|fault| fault.within(key))
 }
