@@ -11,7 +11,7 @@ use super::home::{self, Claims, Expected, Home, Loss};
 use super::kit::FileRequest;
 use super::replacing::Replacing;
 use super::session::Session;
-use super::widgets::Answer;
+use super::widgets::ConfirmAnswer;
 use meshbrush_io::io;
 use meshbrush_io::io::project::{ENDING, Project};
 use meshbrush_io::io::recipe::RecipeFiles;
@@ -236,26 +236,26 @@ impl ProjectFile {
     }
 
     /// Takes the answer about unsaved edits, and returns the command to run now.
-    pub fn answer_leaving(&mut self, answer: Answer, session: &mut Session) -> Option<Command> {
+    pub fn answer_leaving(&mut self, answer: ConfirmAnswer, session: &mut Session) -> Option<Command> {
         let command = self.leaving.take()?;
         match answer {
-            Answer::Confirmed => {
+            ConfirmAnswer::Confirmed => {
                 self.after_saving = Some(command);
                 Some(Command::File(FileCommand::Save))
             }
-            Answer::Alternative => {
+            ConfirmAnswer::Alternative => {
                 session.document_mut().end_stroke();
                 self.given_up = Some(session.document().version());
                 Some(command)
             }
-            Answer::Cancelled => None,
+            ConfirmAnswer::Cancelled => None,
         }
     }
 
     /// Takes the answer about existing files, and returns the command to run now.
-    pub fn answer_replacing(&mut self, answer: Answer) -> Option<Command> {
+    pub fn answer_replacing(&mut self, answer: ConfirmAnswer) -> Option<Command> {
         let replacing = self.replacing.take()?;
-        (answer == Answer::Confirmed).then_some(replacing.command)
+        (answer == ConfirmAnswer::Confirmed).then_some(replacing.command)
     }
 
     /// Returns the command that saves to a path that was typed. Asks before it replaces another file.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::app::background::WorkId;
 use crate::app::home::Home;
 use crate::app::kit::FileRequest;
-use crate::app::widgets::Answer;
+use crate::app::widgets::ConfirmAnswer;
 use meshbrush_core::document::{Document, Example};
 
 /// One thing to do with documents and their files.
@@ -65,11 +65,11 @@ pub enum FileCommand {
     /// Closes the window.
     Quit,
     /// Answers whether to save edits before they would be lost.
-    AnswerLeaving(Answer),
+    AnswerLeaving(ConfirmAnswer),
     /// Answers whether to replace files.
-    AnswerReplacing(Answer),
+    AnswerReplacing(ConfirmAnswer),
     /// Answers whether to restore unsaved work of an earlier run.
-    AnswerRecovery(Answer),
+    AnswerRecovery(ConfirmAnswer),
 }
 
 /// A document that was read and not shown yet.

@@ -23,7 +23,7 @@ use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
-use crate::app::widgets::Answer;
+use crate::app::widgets::ConfirmAnswer;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::Meter;
@@ -154,7 +154,7 @@ impl JournalKeeper {
     }
 
     /// Takes the answer about the work of an earlier run, and returns the command to run now.
-    pub fn answer(&mut self, answer: Answer) -> Option<Command> {
+    pub fn answer(&mut self, answer: ConfirmAnswer) -> Option<Command> {
         let (command, forgotten) = recovery::take_answer(&mut self.offered, answer);
         forgotten.into_iter().for_each(|left| self.forget(left));
         command

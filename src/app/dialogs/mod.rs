@@ -21,7 +21,7 @@ use super::document_id::DocumentId;
 use super::host;
 use super::jobs::Jobs;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
-use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState, Place};
+use crate::app::kit::{CatalogItem, DataFile, DockPlace, FileAct, FileRequest, FrameState};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
@@ -216,7 +216,7 @@ fn palette(ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) 
         let words = words_of(&item.title);
         PaletteItem { title: &item.title, words, keys, enabled: item.enabled }
     });
-    let titles: Vec<String> = PLACES.iter().map(Place::title).collect();
+    let titles: Vec<String> = PLACES.iter().map(DockPlace::title).collect();
     let places = (PLACES.iter().zip(&titles)).map(|(place, title)| PaletteItem {
         title,
         words: place.words,

@@ -5,7 +5,7 @@ use eframe::egui::{self, Frame, Margin, ScrollArea, Ui, UiBuilder, vec2};
 use super::sections;
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{FrameState, Tab};
-use crate::app::parts::{Part, mark};
+use crate::app::parts::{WindowPart, mark};
 use crate::app::theme::{metrics, tokens};
 use crate::app::widgets::tab_bar;
 
@@ -48,7 +48,7 @@ fn margin() -> Margin {
 /// Shows the layers and the selected layer. What has no room is cut off: the dock is as high as it was
 /// dragged.
 fn upper_dock(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    mark(ui, Part::Layers);
+    mark(ui, WindowPart::Layers);
     let place = ui.available_rect_before_wrap();
     let mut inner = ui.new_child(UiBuilder::new().max_rect(place));
     inner.shrink_clip_rect(place.expand2(vec2(metrics::PANEL_MARGIN, 0.0)));
@@ -65,7 +65,7 @@ fn tabs(state: &FrameState<'_>) -> Vec<Tab> {
 }
 
 fn lower_dock(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    mark(ui, Part::Panel);
+    mark(ui, WindowPart::Panel);
     ui.spacing_mut().item_spacing.y = 0.0;
     let tabs = tabs(state);
     let names: Vec<&str> = tabs.iter().map(|tab| tab.name()).collect();

@@ -18,7 +18,7 @@ use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
-use crate::app::widgets::Answer;
+use crate::app::widgets::ConfirmAnswer;
 use meshbrush_io::io::project::{self, Project, ProjectPacking};
 use meshbrush_mesh::mesh::Progress;
 
@@ -104,7 +104,7 @@ impl JournalKeeper {
     }
 
     /// Takes the answer about the work of an earlier tab, and returns the command to run now.
-    pub fn answer(&mut self, answer: Answer) -> Option<Command> {
+    pub fn answer(&mut self, answer: ConfirmAnswer) -> Option<Command> {
         let (command, forgotten) = recovery::take_answer(&mut self.offered, answer);
         forget_of(forgotten.map(|left| left.tab));
         command
