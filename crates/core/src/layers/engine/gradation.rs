@@ -1,5 +1,6 @@
 //! The Lipschitz regularization of h, its inf-convolution with g |·|: the largest field that changes by no
-//! more than a given slope g and never exceeds what the layers ask for, h̄(x) = min over y of h(y) + g |x − y|.
+//! more than a given slope g and never exceeds what the layers ask for,
+//! h̄(x) = min over y of h(y) + g |x − y|.
 //!
 //! It is evaluated by branch and bound through the lattice, best first (`BestFirst`): no cell of a rectangle
 //! carries less to x than the least h in the rectangle plus g times its distance from x. Two facts keep them
