@@ -29,7 +29,7 @@ struct State {
     limit: f64,
     chosen: Option<usize>,
     palette: bool,
-    answer: Option<Answer>,
+    answer: Option<ConfirmAnswer>,
     asking: bool,
     clicks: Vec<String>,
     hovered_level: Option<u32>,
