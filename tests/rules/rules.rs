@@ -1,6 +1,7 @@
 //! The rules of the source code. This package uses nothing of the program, so it compiles in a moment.
 
 mod architecture;
+mod names;
 mod packaging;
 mod public_api;
 mod python;
