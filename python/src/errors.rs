@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_io::io::recipe::LoadError;
-use meshbrush_io::io::{Flaw, KeyFault, Mark, ReadError, KeyStep, TextValue};
+use meshbrush_io::io::{Flaw, KeyFault, KeyStep, Mark, ReadError, TextValue};
 use pyo3::BoundObject;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;

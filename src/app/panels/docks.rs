@@ -30,11 +30,11 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         .show(ui, |ui| {
             let height = ui.available_height();
             let tallest = (height - LEAST_LOWER).max(LEAST_UPPER);
-            let usual = UPPER_SHARE * height;
+            let default = UPPER_SHARE * height;
             egui::Panel::top("layers")
                 .frame(Frame::new().fill(t.panel).inner_margin(margin()))
                 .resizable(true)
-                .default_size((usual / metrics::GRID).round() * metrics::GRID)
+                .default_size((default / metrics::GRID).round() * metrics::GRID)
                 .size_range(LEAST_UPPER..=tallest)
                 .show(ui, |ui| upper_dock(ui, state, commands));
             lower_dock(ui, state, commands);

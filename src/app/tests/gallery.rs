@@ -768,6 +768,10 @@ fn a_question_is_answered_by_button_enter_or_escape() {
         let mut harness = asked();
         harness.key_press(key);
         harness.run();
-        assert_eq!(harness.state().answer, Some(ConfirmAnswer::Cancelled), "a danger is not what Enter takes");
+        assert_eq!(
+            harness.state().answer,
+            Some(ConfirmAnswer::Cancelled),
+            "a danger is not what Enter takes"
+        );
     }
 }

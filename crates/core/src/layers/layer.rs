@@ -222,7 +222,7 @@ impl From<&RasterReading> for RasterValues {
 
 impl Layer {
     /// Returns the layers of a new document: `base`, and paint of both kinds over it.
-    pub fn usual(base: LayerKind) -> Vec<Self> {
+    pub fn default_stack(base: LayerKind) -> Vec<Self> {
         let mut layers =
             Self::stack([base, LayerKind::Paint(Quantity::Diameter), LayerKind::Paint(Quantity::Risk)]);
         layers[0].name = "Base".into();

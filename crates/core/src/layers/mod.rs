@@ -40,7 +40,7 @@ mod targets_in_order;
 mod threat_models;
 mod threat_series;
 mod threats;
-mod usual;
+mod defaults;
 
 pub use areas::PaintChange;
 pub use check::{InvalidLayer, LayerCheck};

@@ -14,7 +14,7 @@ pub struct RasterFormat(&'static RasterFormatSpec);
 
 /// A file format of rasters, as its module describes it.
 pub struct RasterFormatSpec {
-    /// The file name extensions, in lower case and without the dot; the usual one first.
+    /// The file name extensions, in lower case and without the dot; the default one first.
     pub endings: &'static [&'static str],
     /// Whether a file has several variables or bands, of which one is named as in `FILE.nc#VARIABLE`.
     pub has_parts: bool,
@@ -138,7 +138,7 @@ impl RasterFormat {
         })
     }
 
-    /// The usual file name extension, in lower case and without the dot.
+    /// The default file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         self.0.endings[0]
     }

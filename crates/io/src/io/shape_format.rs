@@ -18,7 +18,7 @@ pub type ReadShapesNear = fn(&Path, Rect, &Meter) -> Result<ShapeFile, ReadError
 
 /// A file format of shapes, as its module describes it.
 pub struct ShapeFormatSpec {
-    /// The file name extensions, in lower case and without the dot; the usual one first.
+    /// The file name extensions, in lower case and without the dot; the default one first.
     pub endings: &'static [&'static str],
     /// Reads the polygons of a file, and counts its bytes.
     pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,

@@ -79,7 +79,8 @@ fn large_project() -> Project {
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
     let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [500, 400], values)));
     let source = RasterSource { name: "noise.png".into(), raster };
-    project.settings.layers = Layer::usual(LayerKind::Raster { source, reading: RasterReading::Risk });
+    project.settings.layers =
+        Layer::default_stack(LayerKind::Raster { source, reading: RasterReading::Risk });
     project
 }
 

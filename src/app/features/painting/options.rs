@@ -79,7 +79,7 @@ fn amount_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 fn strength_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut strength = state.tools.strength();
     let slider = SliderRow::new("Strength", &mut strength, 0.01..=1.0).step(0.01);
-    let slider = slider.default(usual_strength(state));
+    let slider = slider.default(default_strength(state));
     if slider.help("How far one stroke moves the value, 0 to 1. The digits 1 to 0 set it.").show(ui).changed()
     {
         send(BrushCommand::Strength(strength), commands);
@@ -87,10 +87,10 @@ fn strength_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
 }
 
 /// Returns the strength that the selected tool has at first.
-fn usual_strength(state: &FrameState<'_>) -> f64 {
-    let mut usual = Tools::for_domain(1.0, 0.0);
-    usual.select(state.tools.tool);
-    usual.strength()
+fn default_strength(state: &FrameState<'_>) -> f64 {
+    let mut default = Tools::for_domain(1.0, 0.0);
+    default.select(state.tools.tool);
+    default.strength()
 }
 
 fn risk_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

@@ -66,11 +66,11 @@ impl StoredPaths {
             }
             PathCost::Formula(formula) => SavedCost::Formula(formula.source().into()),
         };
-        let is_usual = paths.cost == PathCost::default();
+        let is_default = paths.cost == PathCost::default();
         Self {
             routes: paths.routes.iter().map(route).collect(),
             names: paths.names.clone(),
-            cost: (!is_usual).then_some(cost),
+            cost: (!is_default).then_some(cost),
             keep_out: paths.keep_out.iter().map(|region| StoredKeepOut::of(region, names)).collect(),
             clearance: paths.clearance,
         }

@@ -142,7 +142,7 @@ impl SavedSettings {
 /// Returns the name of a keep-out region that is given none.
 fn region_name(file: Option<&Path>) -> String {
     let name = file.map(|file| file.file_name().unwrap_or_default().to_string_lossy().into_owned());
-    name.unwrap_or_else(|| super::paths::USUAL_NAME.into())
+    name.unwrap_or_else(|| super::paths::DEFAULT_NAME.into())
 }
 
 impl SavedDomain {

@@ -91,7 +91,7 @@ fn a_painted_error_counts_in_place_of_that_of_the_surface() {
     let mut window = window_of(TALL);
     send(&mut window, Command::File(FileCommand::New));
     let bounds = settings(&window).domain.bounds;
-    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::usual_surface(&bounds)))));
+    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::default_surface(&bounds)))));
     wait_for_jobs(&mut window);
     let before = triangles(&window);
     send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Error)))));
