@@ -20,7 +20,7 @@ const MOVES: usize = 60 * SECONDS;
 fn document(h_min: f64) -> Document {
     let mut settings = Settings::default();
     (settings.transfer.h_min, settings.transfer.h_risk) = (h_min, h_min);
-    settings.layers = Layer::usual(wave(0.45, 0.0001));
+    settings.layers = Layer::default_stack(wave(0.45, 0.0001));
     Document::new(settings, None).expect("valid settings")
 }
 

@@ -62,7 +62,7 @@ fn settings(source: &RasterSource, goal: SurfaceGoal) -> Settings {
         max_memory: 16_000_000_000,
         ..Settings::default()
     };
-    Settings { layers: Layer::usual(kind.clone()), ..settings.with_nodes_on_samples(&kind) }
+    Settings { layers: Layer::default_stack(kind.clone()), ..settings.with_nodes_on_samples(&kind) }
 }
 
 /// Returns the error of the curve with about so many triangles.

@@ -34,7 +34,7 @@ fn built(level: u32, limits: Limits) -> BuiltMesh {
     let mut builder = MeshBuilder::new(MeshSpec {
         lattice: Lattice::covering(domain.bounds, 1.0, 1_000_000).expect("a square has a grid"),
         domain,
-        boundary: BoundaryTreatment::usual(1.0),
+        boundary: BoundaryTreatment::default_for(1.0),
         field,
         rule: RefinementRule::Area,
         cleaning: Cleaning::NONE,

@@ -56,7 +56,7 @@ fn points_of(frame: usize) -> impl Iterator<Item = DVec2> {
 fn settings(height: f64) -> Settings {
     let mut settings = Settings::default();
     (settings.transfer.h_min, settings.transfer.h_risk) = (0.0011, 0.0011);
-    settings.layers = Layer::usual(wave(height, 0.0011));
+    settings.layers = Layer::default_stack(wave(height, 0.0011));
     settings
 }
 

@@ -38,7 +38,8 @@ fn document(h_min: f64) -> Document {
     };
     let raster = Raster::from_values(Rect::UNIT, [SIDE; 2], (0..SIDE * SIDE).map(risk).collect());
     let source = RasterSource { name: "risk".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-    settings.layers = Layer::usual(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }));
+    settings.layers =
+        Layer::default_stack(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }));
     Document::new(settings, None).expect("valid settings")
 }
 

@@ -20,7 +20,7 @@ const STROKES: [(&str, f64); 3] = [("above the wave", 0.8), ("along the wave", 0
 
 /// Fine below a wave, coarse above it.
 fn document(fine: f64) -> Document {
-    let (transfer, layers) = (Transfer::between(0.7 * fine, 0.2), Layer::usual(wave(0.45, fine)));
+    let (transfer, layers) = (Transfer::between(0.7 * fine, 0.2), Layer::default_stack(wave(0.45, fine)));
     let settings = Settings { transfer, layers, ..Settings::default() };
     Document::new(settings, None).expect("valid settings")
 }

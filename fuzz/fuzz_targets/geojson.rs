@@ -21,7 +21,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let region = domain.region().expect("polygons make a region");
     assert!(region.area() > 0.0 && region.edges().flatten().all(|p| domain.bounds.contains(p)));
     let spacing = domain.bounds.size().max_element() / 5.0;
-    for boundary in [BoundaryTreatment::Report, BoundaryTreatment::usual(spacing)] {
+    for boundary in [BoundaryTreatment::Report, BoundaryTreatment::default_for(spacing)] {
         check_mesh(&domain, boundary, spacing);
     }
 });

@@ -150,9 +150,9 @@ impl Core {
 
     fn cleaning(&self) -> Cleaning {
         let settings = self.document.settings();
-        let usual = settings.derived_cleaning();
+        let default = settings.derived_cleaning();
         // Of a fitted mesh, the settings have what was said, and an undo takes it back.
-        if settings.is_fitted() { usual } else { self.kept.cleaning(usual) }
+        if settings.is_fitted() { default } else { self.kept.cleaning(default) }
     }
 
     /// Returns the mesh, once there is one.

@@ -14,7 +14,7 @@ use crate::rasters::rect_of;
 use crate::values::{Table, named_polygons_of};
 
 /// Coarse cells along the longer side of the domain unless the spacing is given, as in a recipe.
-const USUAL_CELLS: f64 = 20.0;
+const DEFAULT_CELLS: f64 = 20.0;
 
 /// How the mesh meets the boundary of polygons.
 #[derive(Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl Treatment {
 /// Fails for options that cannot be met.
 pub fn settings_of(options: Table<'_>) -> Result<Settings, JsError> {
     let (domain, marks) = domain_of(Table(&options.needed("domain", options.get("domain"))?))?;
-    let spacing = options.length("spacing")?.unwrap_or(domain.bounds.size().max_element() / USUAL_CELLS);
+    let spacing = options.length("spacing")?.unwrap_or(domain.bounds.size().max_element() / DEFAULT_CELLS);
     Lattice::covering(domain.bounds, spacing, MAX_COARSE_TRIANGLES)
         .map_err(CoarseError::from)
         .map_err(error)?;
@@ -60,7 +60,7 @@ pub fn settings_of(options: Table<'_>) -> Result<Settings, JsError> {
     let h_max = options.length("hMax")?.unwrap_or(f64::MAX);
     let settings = Settings {
         name: options.text("name")?.unwrap_or_else(|| "Untitled".to_owned()),
-        boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
+        boundary: BoundaryTreatment::default_for(domain.longest_on_earth(spacing)),
         domain,
         boundary_marks: Arc::new(marks),
         spacing,
@@ -103,7 +103,7 @@ pub fn changed(options: Table<'_>, settings: Settings) -> Result<Settings, JsErr
     }
     let diameter = diameter
         .or(settings.boundary.diameter())
-        .unwrap_or_else(|| BoundaryTreatment::usual_diameter(settings.domain.longest_on_earth(spacing)));
+        .unwrap_or_else(|| BoundaryTreatment::default_diameter(settings.domain.longest_on_earth(spacing)));
     let rules = [("area", RefinementRule::Area), ("vertex", RefinementRule::Vertex)];
     let memory = options.number_where("maxMemory", |bytes| bytes >= 0.0, "give a number of bytes")?;
     Ok(Settings {
@@ -131,11 +131,11 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// Returns which triangles stay: the usual ones, unless the options say otherwise.
-    pub fn cleaning(self, usual: meshbrush_mesh::mesh::Cleaning) -> meshbrush_mesh::mesh::Cleaning {
+    /// Returns which triangles stay: the default ones, unless the options say otherwise.
+    pub fn cleaning(self, default: meshbrush_mesh::mesh::Cleaning) -> meshbrush_mesh::mesh::Cleaning {
         meshbrush_mesh::mesh::Cleaning {
-            parts: self.parts.unwrap_or(usual.parts),
-            keeps_pinches: self.pinches.unwrap_or(usual.keeps_pinches),
+            parts: self.parts.unwrap_or(default.parts),
+            keeps_pinches: self.pinches.unwrap_or(default.keeps_pinches),
         }
     }
 

@@ -291,9 +291,9 @@ fn built_in_place(state: &Mutex<State>, follower: &core::Follower) -> Option<(Bu
 
 fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
     let settings = state.document.settings();
-    let usual = settings.derived_cleaning();
+    let default = settings.derived_cleaning();
     // Of a fitted mesh, the settings have what was said, and an undo takes it back.
-    let cleaning = if settings.is_fitted() { usual } else { state.parts.cleaning(usual) };
+    let cleaning = if settings.is_fitted() { default } else { state.parts.cleaning(default) };
     MeshOrigin {
         spec: MeshSpec { cleaning, ..settings.mesh_spec_on(lattice, limits_of(state)) },
         paint: state.document.paint().clone(),

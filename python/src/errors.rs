@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_io::io::recipe::LoadError;
-use meshbrush_io::io::{Flaw, KeyFault, Mark, ReadError, Step, TextValue};
+use meshbrush_io::io::{Flaw, KeyFault, KeyStep, Mark, ReadError, TextValue};
 use pyo3::BoundObject;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -42,7 +42,7 @@ const FILE_KEYS: [&str; 5] = ["region", "land", "open", "file", "mask_file"];
 
 /// Returns whether a value names a file that is not there.
 fn names_no_file(fault: &KeyFault) -> bool {
-    let of_file = |step: &Step| matches!(step, Step::Key(key) if FILE_KEYS.contains(&&**key));
+    let of_file = |step: &KeyStep| matches!(step, KeyStep::Key(key) if FILE_KEYS.contains(&&**key));
     fault.mark == Mark::Entry && fault.path.last().is_some_and(of_file)
 }
 
@@ -73,7 +73,7 @@ pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
 
 /// Returns the fault without the name of its table, which nobody types in Python.
 fn without_table(fault: &KeyFault) -> KeyFault {
-    let is_table = |step: &Step| matches!(step, Step::Key(key) if matches!(&**key, "domain" | "mesh" | "limits" | "paths" | "layer"));
+    let is_table = |step: &KeyStep| matches!(step, KeyStep::Key(key) if matches!(&**key, "domain" | "mesh" | "limits" | "paths" | "layer"));
     let mut fault = fault.clone();
     if fault.path.len() > 1 && is_table(&fault.path[0]) {
         fault.path.remove(0);
@@ -81,12 +81,12 @@ fn without_table(fault: &KeyFault) -> KeyFault {
     fault
 }
 
-fn text_at<'a>(tables: &'a TextValue, path: &[Step]) -> Option<&'a str> {
+fn text_at<'a>(tables: &'a TextValue, path: &[KeyStep]) -> Option<&'a str> {
     let end = path.iter().try_fold(tables, |value, step| match (value, step) {
-        (TextValue::Table(entries), Step::Key(key)) => {
+        (TextValue::Table(entries), KeyStep::Key(key)) => {
             entries.iter().find(|(known, _)| known == key).map(|(_, value)| value)
         }
-        (TextValue::List(list), Step::Index(index)) => list.get(*index),
+        (TextValue::List(list), KeyStep::Index(index)) => list.get(*index),
         _ => None,
     })?;
     if let TextValue::Text(text) = end { Some(text) } else { None }

@@ -85,15 +85,15 @@ fn cost_of(table: &Bound<'_, PyDict>, unit: LengthUnit) -> PyResult<(PathCost, f
     let tables = text_value(&tables)?;
     let saved = SavedSettings::of_value_for(&tables, unit).map_err(|fault| fault_in(&tables, &fault))?;
     let paths = saved.paths;
-    let usual = Weights::default();
+    let default = Weights::default();
     let cost = match &paths.cost {
         Some(text) => {
             let formula = CostFormula::parse(text);
             PathCost::Formula(formula.map_err(|mistake| mistake_in("cost", text, &mistake))?)
         }
         None => PathCost::Weighted(Weights {
-            length: paths.length_weight.unwrap_or(usual.length),
-            risk: paths.risk_weight.unwrap_or(usual.risk),
+            length: paths.length_weight.unwrap_or(default.length),
+            risk: paths.risk_weight.unwrap_or(default.risk),
         }),
     };
     Ok((cost, paths.clearance.unwrap_or(0.0)))

@@ -119,9 +119,9 @@ pub fn note_process() {
     IMPORTED_BY.get_or_init(std::process::id);
 }
 
-/// Returns threads for one piece of work alone, where the usual ones are not wanted or not there.
+/// Returns threads for one piece of work alone, where the default ones are not wanted or not there.
 ///
-/// The usual ones are used from outside: within them, a thread that waits takes up any other work, which
+/// The default ones are used from outside: within them, a thread that waits takes up any other work, which
 /// could wait for a document that the first has locked.
 fn own_pool(threads: Option<usize>) -> PyResult<Option<ThreadPool>> {
     let is_forked = IMPORTED_BY.get().is_some_and(|&process| process != std::process::id());

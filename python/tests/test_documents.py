@@ -168,10 +168,10 @@ def test_parts_and_pinches_are_changed_and_undone() -> None:
     # Two squares that meet in a node, and a smaller one beside them.
     squares = [[[(x, y), (x + side, y), (x + side, y + side), (x, y + side)]] for x, y, side in ((0, 0, 2), (2, 2, 2), (3, 0, 1))]
     domain = mb.Domain({"type": "MultiPolygon", "coordinates": [[[*ring, ring[0]] for ring in polygon] for polygon in squares]})
-    for boundary, usual in (("fitted", 4), ("report", 9)):
+    for boundary, default in (("fitted", 4), ("report", 9)):
         document = mb.Document(domain, spacing=0.5, boundary=boundary, unit="none")
         meshes = [document.mesh()]
-        assert round(meshes[0].statistics["area"]) == usual
+        assert round(meshes[0].statistics["area"]) == default
         for parts, area in (("all", 9), (0.2, 8), ("largest", 4)):
             document.set(parts=parts, keep_pinches=parts == 0.2)
             meshes.append(document.mesh())

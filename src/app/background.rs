@@ -10,7 +10,7 @@ use super::busy::Busy;
 use super::command::{Command, Opened};
 use super::document_id::DocumentId;
 use super::home::{Home, Loss};
-use super::jobs::{Job, Jobs, Kind, Taken};
+use super::jobs::{Job, JobKind, Jobs, Taken};
 use super::threads::Threads;
 use meshbrush_io::io::{self, Meter};
 use meshbrush_mesh::mesh::Progress;
@@ -112,7 +112,7 @@ struct FileWork {
 }
 
 /// The progress of one piece of work, as it is shown.
-pub struct Row {
+pub struct ProgressRow {
     pub id: WorkId,
     /// Whether it is read.
     pub reads: bool,
@@ -149,7 +149,7 @@ impl Background {
     pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
         let meter = Meter::default();
         let (watched, threads) = (meter.clone(), self.threads);
-        let kind = if aim == Aim::Read { Kind::Read } else { Kind::Write };
+        let kind = if aim == Aim::Read { JobKind::Read } else { JobKind::Write };
         let job = self.jobs.start(kind, move |output| {
             output.send(Threads::new(threads).run(|| work(&watched)));
         });
@@ -166,7 +166,7 @@ impl Background {
         begin: impl FnOnce() -> Option<S> + Send + 'static,
         mut slice: impl FnMut(&mut S) -> Option<Outcome> + Send + 'static,
     ) {
-        let kind = if aim == Aim::Read { Kind::Read } else { Kind::Write };
+        let kind = if aim == Aim::Read { JobKind::Read } else { JobKind::Write };
         let job = self.jobs.start_in_slices(kind, begin, move |state, output| match slice(state) {
             Some(outcome) => {
                 output.send(outcome);
@@ -230,11 +230,11 @@ impl Background {
     }
 
     /// Returns the progress of work that takes longer than a moment, or of all work.
-    pub fn rows(&self, all: bool) -> Vec<Row> {
+    pub fn rows(&self, all: bool) -> Vec<ProgressRow> {
         let shown = self.works.iter().filter(|work| all || work.busy.is_long());
         let row = |work: &FileWork| {
             let doing = if work.meter.is_cancelled() { "Cancelling" } else { work.aim.doing() };
-            Row {
+            ProgressRow {
                 id: work.id,
                 reads: work.aim == Aim::Read,
                 what: format!("{doing} {}", work.name),

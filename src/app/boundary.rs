@@ -19,7 +19,7 @@ struct BoundaryKey {
 }
 
 /// The data for which lost pieces were found: the pieces, and the exported mesh.
-type LostKey = (BoundaryKey, derivation::Key);
+type LostKey = (BoundaryKey, derivation::DerivationKey);
 
 /// Finds the pieces of the boundary.
 #[derive(Default)]

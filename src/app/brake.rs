@@ -32,7 +32,7 @@ const ESTIMATE_SLICE: usize = 64;
 
 /// See the head of the module.
 #[derive(Default)]
-pub struct Brake {
+pub struct GrowthGuard {
     /// The last mesh that was up to date.
     settled: Option<Settled>,
     state: GuardState,
@@ -81,7 +81,7 @@ impl Need {
     }
 }
 
-impl Brake {
+impl GrowthGuard {
     /// Returns how many triangles the mesh of the document may have without a question; `None` while it
     /// waits for an answer or an estimate.
     pub fn most(&mut self, document: &Document, follower: &Follower) -> Option<usize> {

@@ -4,7 +4,7 @@
 
 use std::collections::VecDeque;
 
-use super::jobs::{Job, Jobs, Kind, Taken};
+use super::jobs::{Job, JobKind, Jobs, Taken};
 use super::session::Session;
 use meshbrush_core::document::{Document, Drawing, DrawingError, DrawnPart, DrawnShape, Setting};
 use meshbrush_core::domain::CutShape;
@@ -68,12 +68,12 @@ struct RunningEdit {
 
 /// Edits that have not reached the document.
 #[derive(Default)]
-pub struct CutQueue {
+pub struct PolygonEditQueue {
     waiting: VecDeque<QueuedEdit>,
     running: Option<RunningEdit>,
 }
 
-impl CutQueue {
+impl PolygonEditQueue {
     /// Returns whether all edits have reached the document.
     pub fn is_idle(&self) -> bool {
         self.waiting.is_empty() && self.running.is_none()
@@ -163,7 +163,7 @@ impl CutQueue {
 
     fn start(&mut self, edit: DrawnEdit, before: Drawing, jobs: &Jobs) {
         let (edit_there, before_there) = (edit.clone(), before.clone());
-        let job = jobs.start(Kind::Compute, move |output| {
+        let job = jobs.start(JobKind::Compute, move |output| {
             output.send(edit_there.apply(&before_there));
         });
         self.running = Some(RunningEdit { edit, before, job });

@@ -26,7 +26,7 @@ use super::dialogs::FileFacts;
 use super::features::{LAYER_KINDS, stepping};
 use super::host;
 use super::journal::JournalKeeper;
-use super::keys::{Press, Receiver};
+use super::keys::{KeyPress, Receiver};
 use super::platform::IS_PAGE;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
@@ -120,10 +120,10 @@ impl App {
     pub(super) fn run_key(&mut self, event: &Event, ctx: &Context) -> bool {
         let press = match *event {
             Event::Key { key, physical_key, pressed: true, modifiers, .. } => {
-                Press { key, physical_key, modifiers }
+                KeyPress { key, physical_key, modifiers }
             }
             // Ctrl+C reaches the window as this event only.
-            Event::Copy => Press { key: Key::C, physical_key: None, modifiers: Modifiers::COMMAND },
+            Event::Copy => KeyPress { key: Key::C, physical_key: None, modifiers: Modifiers::COMMAND },
             _ => return false,
         };
         // A menu or a dialog takes Escape and Enter itself.

@@ -17,7 +17,7 @@ impl App {
             Ok(keymap) => self.keymap = keymap,
             Err(problem) => {
                 self.session.report(format!(
-                    "The keys that you changed could not be read. {problem} The usual keys work until you change \
+                    "The keys that you changed could not be read. {problem} The default keys work until you change \
                      or import keys."
                 ));
                 self.unread_keys = Some(text);
@@ -55,7 +55,7 @@ mod tests {
         window.state_mut().load_keys(&storage);
         window.run();
         let said = notice(&window);
-        assert!(said.contains("Hyper+Q") && said.contains("The usual keys work"), "{said}");
+        assert!(said.contains("Hyper+Q") && said.contains("The default keys work"), "{said}");
         window.state().store_keys(&mut storage);
         assert_eq!(storage.get_string(KEYS_KEY).as_deref(), Some(damaged), "nothing is lost");
         let changed = Keymap::parse(&damaged.replace("Hyper+Q", "F12")).expect("keys");

@@ -29,7 +29,7 @@ impl Receiver {
 
 /// A key that was pressed, with the modifiers that were held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Press {
+pub struct KeyPress {
     /// The key by its character, or else by its place.
     pub key: Key,
     /// The place of the key, by its character on a US keyboard, where it is known.
@@ -45,8 +45,8 @@ pub struct Press {
 /// character, as for `+` on a US keyboard. With Shift, the digit at the place of a key comes first: with
 /// Shift its character is another one on most keyboards. Without, the place of a digit comes last: on French
 /// keyboards it types another character.
-pub fn entry_of(press: Press, receiver: Receiver, catalog: &[CatalogItem]) -> Option<&CatalogItem> {
-    let Press { key, physical_key, modifiers } = press;
+pub fn entry_of(press: KeyPress, receiver: Receiver, catalog: &[CatalogItem]) -> Option<&CatalogItem> {
+    let KeyPress { key, physical_key, modifiers } = press;
     if receiver == Receiver::Control && MENU_KEYS == KeyboardShortcut::new(modifiers, key) {
         return None; // the control shows its own menu
     }

@@ -8,7 +8,7 @@ use meshbrush_ui::theme::tokens;
 
 /// A part of the window, in the order of the key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Part {
+pub enum WindowPart {
     /// The bar of menus.
     Menus,
     /// The strip of tools.
@@ -25,7 +25,7 @@ pub enum Part {
     Status,
 }
 
-impl Part {
+impl WindowPart {
     fn name(self) -> &'static str {
         match self {
             Self::Menus => "Menus",
@@ -44,7 +44,7 @@ impl Part {
 }
 
 /// Where the parts were last shown, with the number of the pass.
-type Shown = BTreeMap<Part, (u64, Rect)>;
+type Shown = BTreeMap<WindowPart, (u64, Rect)>;
 
 fn shown_id() -> Id {
     Id::unique("parts of the window")
@@ -52,12 +52,12 @@ fn shown_id() -> Id {
 
 /// Notes a part of the window, before its controls. After F6 it has the focus: a ring shows where, and Tab
 /// leads to its first control.
-pub fn mark(ui: &Ui, part: Part) {
+pub fn mark(ui: &Ui, part: WindowPart) {
     // With its margins.
     let rect = ui.clip_rect();
     let pass = ui.ctx().cumulative_pass_nr();
     ui.data_mut(|data| data.get_temp_mut_or_default::<Shown>(shown_id()).insert(part, (pass, rect)));
-    if part == Part::Canvas || !ui.memory(|memory| memory.has_focus(part.id())) {
+    if part == WindowPart::Canvas || !ui.memory(|memory| memory.has_focus(part.id())) {
         return;
     }
     let response = ui.interact(rect, part.id(), Sense::focusable_noninteractive());
@@ -69,7 +69,7 @@ pub fn mark(ui: &Ui, part: Part) {
 pub fn focus(ctx: &Context, canvas: Option<Id>, by: i32) {
     let pass = ctx.cumulative_pass_nr();
     let shown: Shown = ctx.data(|data| data.get_temp(shown_id())).unwrap_or_default();
-    let parts: Vec<(Part, Rect)> = shown
+    let parts: Vec<(WindowPart, Rect)> = shown
         .into_iter()
         .filter(|(_, (at, _))| at + 2 > pass)
         .map(|(part, (_, rect))| (part, rect))
@@ -77,11 +77,11 @@ pub fn focus(ctx: &Context, canvas: Option<Id>, by: i32) {
     let focused = ctx.memory(|memory| memory.focused());
     let place = focused.and_then(|id| ctx.read_response(id)).map(|response| response.rect.center());
     let own = place.and_then(|place| parts.iter().position(|(_, rect)| rect.contains(place)));
-    let canvas_at = || parts.iter().position(|(part, _)| *part == Part::Canvas);
+    let canvas_at = || parts.iter().position(|(part, _)| *part == WindowPart::Canvas);
     let Some(from) = own.or_else(canvas_at).filter(|_| !parts.is_empty()) else { return };
     let to = (from as i32 + by).rem_euclid(parts.len() as i32) as usize;
     let id = match parts[to].0 {
-        Part::Canvas => canvas,
+        WindowPart::Canvas => canvas,
         part => Some(part.id()),
     };
     if let Some(id) = id {

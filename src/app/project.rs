@@ -233,26 +233,26 @@ impl ProjectFile {
     }
 
     /// Takes the answer about unsaved edits, and returns the command to run now.
-    pub fn answer_leaving(&mut self, answer: Answer, session: &mut Session) -> Option<Command> {
+    pub fn answer_leaving(&mut self, answer: ConfirmAnswer, session: &mut Session) -> Option<Command> {
         let command = self.leaving.take()?;
         match answer {
-            Answer::Confirmed => {
+            ConfirmAnswer::Confirmed => {
                 self.after_saving = Some(command);
                 Some(Command::from(FileCommand::Save))
             }
-            Answer::Alternative => {
+            ConfirmAnswer::Alternative => {
                 session.document_mut().end_stroke();
                 self.given_up = Some(session.document().version());
                 Some(command)
             }
-            Answer::Cancelled => None,
+            ConfirmAnswer::Cancelled => None,
         }
     }
 
     /// Takes the answer about existing files, and returns the command to run now.
-    pub fn answer_replacing(&mut self, answer: Answer) -> Option<Command> {
+    pub fn answer_replacing(&mut self, answer: ConfirmAnswer) -> Option<Command> {
         let replacing = self.replacing.take()?;
-        (answer == Answer::Confirmed).then_some(replacing.command)
+        (answer == ConfirmAnswer::Confirmed).then_some(replacing.command)
     }
 
     /// Returns the command that saves to a path that was typed. Asks before it replaces another file.

@@ -44,12 +44,12 @@ pub fn question(
 
 /// Takes the answer about the work that is offered. Returns the command to run now, and the work if it is to
 /// be forgotten.
-pub fn take_answer<T>(offered: &mut Option<T>, answer: Answer) -> (Option<Command>, Option<T>) {
-    if answer == Answer::Confirmed {
+pub fn take_answer<T>(offered: &mut Option<T>, answer: ConfirmAnswer) -> (Option<Command>, Option<T>) {
+    if answer == ConfirmAnswer::Confirmed {
         // It stays offered: the user may still decide to keep the current document.
         return (offered.as_ref().map(|_| Command::from(FileCommand::Restore)), None);
     }
-    (None, offered.take().filter(|_| answer == Answer::Alternative))
+    (None, offered.take().filter(|_| answer == ConfirmAnswer::Alternative))
 }
 
 /// Returns a time in the past, in words.

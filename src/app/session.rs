@@ -7,8 +7,8 @@ use glam::DVec2;
 
 use super::ages::AgeKeeper;
 use super::boundary::BoundaryFinder;
-use super::brake::Brake;
-use super::cuts::CutQueue;
+use super::brake::GrowthGuard;
+use super::cuts::PolygonEditQueue;
 use super::derivation::{Derivation, Derived, ShownChange};
 use super::document_id::DocumentId;
 use super::heights::HeightFinder;
@@ -42,8 +42,8 @@ pub struct Session {
     /// The effect of the last edit of the size, and the price of the next.
     pub(super) size_change: SizeChange,
     /// Holds updates that need very many triangles.
-    pub(super) brake: Brake,
-    pub(super) cuts: CutQueue,
+    pub(super) brake: GrowthGuard,
+    pub(super) cuts: PolygonEditQueue,
     queried: Option<DVec2>,
     /// The middles of the triangles on the way to the queried one, in world units.
     trail: Vec<DVec2>,
@@ -78,8 +78,8 @@ impl Session {
             readings: RefCell::default(),
             pricer: Pricer::default(),
             size_change: SizeChange::default(),
-            brake: Brake::default(),
-            cuts: CutQueue::default(),
+            brake: GrowthGuard::default(),
+            cuts: PolygonEditQueue::default(),
             queried: None,
             trail: Vec::new(),
             notices: Notices::default(),

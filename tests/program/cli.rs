@@ -61,11 +61,11 @@ fn the_summary_says_all_that_a_program_asks() {
 fn without_a_rule_no_thin_feature_is_missed() {
     let folder = Folder::new("cli-thin");
     let options = "--spacing 0.25 --target 'if(abs(x - 0.3) < 0.001, 0.01, 1)'";
-    let usual = folder.json("mesh", options);
-    assert_eq!(usual["rule"], "area");
+    let default = folder.json("mesh", options);
+    assert_eq!(default["rule"], "area");
     let missed = folder.json("mesh", format!("{options} --rule vertex"));
     assert_eq!(missed["levels"], serde_json::json!([32]));
-    assert!(usual["triangles"].as_u64() > Some(1000), "{usual}");
+    assert!(default["triangles"].as_u64() > Some(1000), "{default}");
 }
 
 #[test]
@@ -234,7 +234,7 @@ fn a_region_is_meshed_as_its_boundary_asks() {
     };
     let fitted = folder.json("mesh", "--region frame.geojson --spacing 1 --checks");
     assert_eq!(shape(&fitted), [12.0, 1.0, 12.0, 1.0, 1.0]);
-    // The usual diameter is that of level 7, an eighth of the spacing, as the help says.
+    // The default diameter is that of level 7, an eighth of the spacing, as the help says.
     assert_eq!((&fitted["max_level"], &fitted["violations"]), (&7.into(), &0.into()));
     let eighth = folder.json("mesh", "--region frame.geojson --spacing 1 --boundary-diameter 0.125");
     assert_eq!(eighth["hash"], fitted["hash"]);

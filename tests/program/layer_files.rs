@@ -330,9 +330,9 @@ fn options_take_threats_distances_and_a_limit_of_gradation() {
     let folder = Folder::new("options");
     folder.file("threats.csv", "x,y,range,peak\n0.5,0.5,0.3,1\n");
     folder.file("point.geojson", r#"{"type":"Point","coordinates":[0.2,0.2]}"#);
-    let usual = ["--h-min", "0.02", "--h-max", "0.3", "--checks", "--rule", "area"];
+    let default = ["--h-min", "0.02", "--h-max", "0.3", "--checks", "--rule", "area"];
     let count = |options: &[&str]| {
-        let Ran { status, out, err } = folder.run([&["mesh", "--json"], &usual[..], options].concat());
+        let Ran { status, out, err } = folder.run([&["mesh", "--json"], &default[..], options].concat());
         assert_eq!(status, 0, "{err}");
         let summary: serde_json::Value = serde_json::from_str(&out).unwrap();
         summary["triangles"].as_u64().unwrap()

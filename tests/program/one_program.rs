@@ -473,11 +473,11 @@ fn options_have_the_mesh_of_a_document_with_their_settings() {
     let folder = Folder::new("options");
     for seed in seeds(8) {
         let random = &mut fastrand::Rng::with_seed(1000 + seed);
-        let usual = settings(random);
+        let default = settings(random);
         // Polygons alone decide the bounds of a region.
-        let domain = match usual.domain.region() {
+        let domain = match default.domain.region() {
             Some(region) => Domain::of_polygons(region.polygons()).unwrap(),
-            None => usual.domain.clone(),
+            None => default.domain.clone(),
         };
         let threats = Threats::new((0..30).flat_map(|_| threats(random).list().to_vec()).collect());
         let layers = Layer::stack([
@@ -485,7 +485,7 @@ fn options_have_the_mesh_of_a_document_with_their_settings() {
             LayerKind::risk(formula("0.8*exp(-hypot(x - 1, y - 2))")),
             LayerKind::Threats(threats.unwrap()),
         ]);
-        let settings = Settings { domain, layers, ..usual };
+        let settings = Settings { domain, layers, ..default };
         let mut document = Document::new(settings, None).unwrap();
         let project = Project::of(&document);
         RecipeFiles::new(&project, &folder.0.join("a.toml")).write(&Meter::default()).unwrap();

@@ -152,7 +152,7 @@ fn documents() -> Vec<Document> {
                 h_max: extent / 3.7,
                 shape: 0.1 + random.f64(),
             },
-            layers: Layer::usual(LayerKind::constant(extent * random.f64().max(1e-3))),
+            layers: Layer::default_stack(LayerKind::constant(extent * random.f64().max(1e-3))),
             max_triangles: 123_457,
             domain,
             ..plain.clone()
@@ -169,7 +169,7 @@ fn documents() -> Vec<Document> {
             projection: None,
         },
         boundary: BoundaryTreatment::Report,
-        layers: Layer::usual(raster_layer("slope.png", raster)),
+        layers: Layer::default_stack(raster_layer("slope.png", raster)),
         gradation: Some(1.0 / 3.0),
         rule: RefinementRule::Area,
         ..plain.clone()
@@ -177,7 +177,7 @@ fn documents() -> Vec<Document> {
     all.push(Document::new(picture, None).unwrap());
     let target = || LayerKind::target(formula("0.02 + 0.1*hypot(x - 0.5, y - 0.5)"));
     all.push(Document::new(Settings { layers: stack(target()), ..plain.clone() }, None).unwrap());
-    let layers = Layer::usual(target());
+    let layers = Layer::default_stack(target());
     all.push(Document::new(Settings { layers, rule: RefinementRule::Vertex, ..plain }, None).unwrap());
     for document in all.iter_mut().skip(3) {
         scribble(document, &mut random);
@@ -336,7 +336,7 @@ fn small() -> Project {
     let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
     let settings = Settings {
         domain: Domain::of_polygons(&[square]).unwrap(),
-        layers: Layer::usual(raster_layer("a.png", raster)),
+        layers: Layer::default_stack(raster_layer("a.png", raster)),
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();

@@ -286,7 +286,7 @@ fn the_recipe_of_a_document_gives_its_mesh() {
         let settings = Settings {
             boundary_marks: marks.clone().into(),
             unit: LengthUnit::Kilometre,
-            layers: Layer::usual(LayerKind::constant(0.3)),
+            layers: Layer::default_stack(LayerKind::constant(0.3)),
             ..Settings::for_domain("Rock".into(), domain)
         };
         let base = "{ \"kind\": \"formula\", \"quantity\": \"diameter\", \"formula\": \"0.3\" }";

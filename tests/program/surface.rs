@@ -409,15 +409,15 @@ fn pictures_show_the_surface_in_space() {
         assert_eq!(ran.status, 0, "{options}: {}", ran.err);
         (picture(&folder, "m.png"), ran.err)
     };
-    let ((size, usual), said) = run("--view space");
+    let ((size, default), said) = run("--view space");
     assert!(said.contains("m.png, with heights times 0.2"), "{said}");
     assert!(size[0] == 400 && (150..350).contains(&size[1]), "{size:?}");
-    let ground = usual[0];
-    let drawn = usual.iter().filter(|pixel| **pixel != ground).count();
-    assert!(drawn > usual.len() / 4 && drawn < usual.len() * 9 / 10, "{drawn} of {}", usual.len());
-    assert_eq!(run("--view space --azimuth 20 --altitude 40").0.1, usual, "the usual direction");
+    let ground = default[0];
+    let drawn = default.iter().filter(|pixel| **pixel != ground).count();
+    assert!(drawn > default.len() / 4 && drawn < default.len() * 9 / 10, "{drawn} of {}", default.len());
+    assert_eq!(run("--view space --azimuth 20 --altitude 40").0.1, default, "the usual direction");
     for other in ["--azimuth 200", "--altitude 15", "--exaggeration 1"] {
-        assert_ne!(run(&format!("--view space {other}")).0.1, usual, "{other}");
+        assert_ne!(run(&format!("--view space {other}")).0.1, default, "{other}");
     }
     // From above and without relief it is the plan, within its margin.
     let ((from_above, _), _) =

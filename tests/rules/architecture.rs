@@ -119,7 +119,7 @@ fn files_before(module: &str) -> impl Iterator<Item = &'static SourceFile> + use
 }
 
 /// Fails with everything found, one per line.
-fn assert_none(found: Vec<String>, rule: &str) {
+pub fn assert_none(found: Vec<String>, rule: &str) {
     assert!(found.is_empty(), "{rule}\n  {}", found.join("\n  "));
 }
 
@@ -148,7 +148,7 @@ fn with_word<'a>(files: impl IntoIterator<Item = &'a SourceFile>, word: &str) ->
 }
 
 /// Every exception must still be needed.
-fn assert_needed(listed: &[String], met: &[String], list: &str) {
+pub fn assert_needed(listed: &[String], met: &[String], list: &str) {
     let idle = listed.iter().filter(|exception| !met.contains(exception)).cloned().collect();
     assert_none(idle, &format!("these are listed in {list} and no longer need to be:"));
 }

@@ -3,6 +3,7 @@
 mod architecture;
 mod circles;
 mod documents;
+mod names;
 mod packaging;
 mod public_api;
 mod python;

@@ -6,14 +6,14 @@
 use std::ops::Range;
 
 /// Returns the seeds of so many cases, or of a multiple of them in a long run.
-pub fn seeds(usual: u64) -> Range<u64> {
+pub fn seeds(default: u64) -> Range<u64> {
     let first = number("MESHBRUSH_SEED").unwrap_or(0);
-    first..first + runs(usual)
+    first..first + runs(default)
 }
 
 /// So many cases, or a multiple of them in a long run.
-pub fn runs(usual: u64) -> u64 {
-    usual * number("MESHBRUSH_LONG").unwrap_or(1)
+pub fn runs(default: u64) -> u64 {
+    default * number("MESHBRUSH_LONG").unwrap_or(1)
 }
 
 fn number(variable: &str) -> Option<u64> {

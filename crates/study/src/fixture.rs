@@ -26,7 +26,7 @@ pub fn built_with(layers: Vec<Layer>, rule: RefinementRule, limits: Limits) -> B
     let mut builder = MeshBuilder::new(MeshSpec {
         lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),
         domain,
-        boundary: BoundaryTreatment::usual(0.1),
+        boundary: BoundaryTreatment::default_for(0.1),
         field,
         rule,
         cleaning: Cleaning::NONE,

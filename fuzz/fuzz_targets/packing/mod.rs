@@ -48,7 +48,7 @@ pub fn sample() -> Project {
     let source = RasterSource { name: "a.png".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let settings = Settings {
         domain: Domain::of_polygons(&[triangle]).unwrap(),
-        layers: Layer::usual(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk })),
+        layers: Layer::default_stack(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk })),
         ..Settings::default()
     };
     let mut document = Document::new(settings, None).unwrap();

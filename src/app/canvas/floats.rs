@@ -5,7 +5,7 @@ use std::time::Duration;
 use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
 use super::{Canvas, coordinates, legend, menu, navigation, way_back};
-use crate::app::background::Row;
+use crate::app::background::ProgressRow;
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::painting::show_limit_offer;
 use crate::app::features::picture::show_corners;
@@ -32,7 +32,7 @@ impl Canvas {
         ui: &mut Ui,
         response: &Response,
         state: &FrameState<'_>,
-        files: &[Row],
+        files: &[ProgressRow],
         commands: &mut Vec<Command>,
     ) -> Vec<Rect> {
         let inner = response.rect.shrink(12.0);
@@ -70,7 +70,7 @@ impl Canvas {
         ui: &mut Ui,
         inner: Rect,
         session: &Session,
-        files: &[Row],
+        files: &[ProgressRow],
         commands: &mut Vec<Command>,
     ) -> Vec<Rect> {
         let size = vec2(inner.width().min(360.0), 36.0);
@@ -83,7 +83,7 @@ impl Canvas {
             }
             rows += 1;
         }
-        for Row { id, what, meter, .. } in files {
+        for ProgressRow { id, what, meter, .. } in files {
             if bytes_row(&mut card(ui, place(rows)), what, meter.done(), meter.total()) {
                 commands.push(Command::from(FileCommand::CancelWork(*id)));
             }

@@ -34,7 +34,7 @@ use super::features::ROWS;
 use super::features::painting::picks;
 use super::features::picture::BackgroundTexture;
 use super::jobs::Jobs;
-use super::parts::{Part, mark};
+use super::parts::{WindowPart, mark};
 use super::session::Session;
 use super::software_window::SoftwareWindow;
 use super::tools::{PAN, Tools};
@@ -271,7 +271,7 @@ impl Canvas {
     /// Takes the space that is left for the canvas, and fits the camera to it. Returns `None` where there is
     /// no room to draw.
     pub fn layout(&mut self, ui: &mut Ui, view: &mut View, lattice: &Lattice) -> Option<Response> {
-        mark(ui, Part::Canvas);
+        mark(ui, WindowPart::Canvas);
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, CANVAS_NAME));
         if rect.width() < 1.0 || rect.height() < 1.0 {

@@ -267,7 +267,7 @@ mod tests {
 
     use super::*;
     use crate::app::files::example;
-    use crate::app::jobs::Kind;
+    use crate::app::jobs::JobKind;
     use crate::app::view::View;
 
     #[test]
@@ -284,7 +284,7 @@ mod tests {
             let overlay = shown.overlay(kind, &session, palette.clone(), &camera, &jobs);
             let colors = overlay.map(|overlay| overlay.rgba.to_vec());
             assert_eq!(colors, (kind != FieldOverlay::None).then(|| vec![palette.neutral()]));
-            assert!(jobs.threads(Kind::Compute) <= 1);
+            assert!(jobs.threads(JobKind::Compute) <= 1);
         }
         assert_eq!(jobs.started(), 1, "the first one has not ended for the window");
     }

@@ -66,11 +66,11 @@ pub enum FileCommand {
     /// Closes the window.
     Quit,
     /// Answers whether to save edits before they would be lost.
-    AnswerLeaving(Answer),
+    AnswerLeaving(ConfirmAnswer),
     /// Answers whether to replace files.
-    AnswerReplacing(Answer),
+    AnswerReplacing(ConfirmAnswer),
     /// Answers whether to restore unsaved work of an earlier run.
-    AnswerRecovery(Answer),
+    AnswerRecovery(ConfirmAnswer),
 }
 
 impl CommandSet for FileCommand {

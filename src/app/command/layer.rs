@@ -39,7 +39,7 @@ pub enum LayerCommand {
     Clear(LayerId),
     /// Begins to type a new name of a layer in the panel.
     AskName(LayerId),
-    /// Limits the gradation of h̄ to the usual slope, or removes the limit.
+    /// Limits the gradation of h̄ to the default slope, or removes the limit.
     LimitGradation(bool),
     /// Reads a greyscale picture, or a grid of its own placement, as a layer of risk.
     OpenImage(PathBuf),

@@ -4,7 +4,7 @@ use eframe::egui::ThemePreference;
 use glam::DVec2;
 
 use super::CommandSet;
-use crate::app::kit::{Place, Tab};
+use crate::app::kit::{DockPlace, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::TriangleId;
@@ -49,7 +49,7 @@ pub enum ViewCommand {
     /// Dark, light, or as the desktop has it.
     Theme(ThemePreference),
     /// Opens a section of the panels, and scrolls to it or to a control in it.
-    Reveal(&'static Place),
+    Reveal(&'static DockPlace),
     /// Shows or hides the panels.
     TogglePanels,
     /// Shows a tab of the lower dock.

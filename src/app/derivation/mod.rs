@@ -20,7 +20,7 @@ use glam::DVec2;
 
 use coast::{Coast, RemovedTriangles};
 
-use super::jobs::{Job, Jobs, Kind, Output, Succession, Taken};
+use super::jobs::{Job, JobKind, Jobs, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
 use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Region};
 use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFit, OutlineFollower};
@@ -43,14 +43,14 @@ pub struct ShownChange {
 
 /// The data that a derived mesh depends on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Key {
+pub struct DerivationKey {
     revision: u64,
     on_outline: bool,
     cleaning: Cleaning,
     region: Arc<Region>,
 }
 
-impl Key {
+impl DerivationKey {
     /// Returns the data that the derived mesh of the follower depends on; `None` if the mesh itself is
     /// exported.
     fn of(follower: &Follower) -> Option<Self> {
@@ -66,7 +66,7 @@ impl Key {
 
 /// A mesh as files have it. Ids are the numbers in files.
 pub struct Derived {
-    key: Key,
+    key: DerivationKey,
     /// Shared with the thread that compares it with the outline.
     extract: Arc<Extract<'static>>,
     locator: PatchedLocator,
@@ -84,7 +84,7 @@ pub struct Derived {
 
 impl Derived {
     /// Returns the data that the derived mesh depends on.
-    pub fn key(&self) -> &Key {
+    pub fn key(&self) -> &DerivationKey {
         &self.key
     }
 
@@ -123,14 +123,14 @@ pub struct Derivation {
     pieces_change: Option<PiecesChange>,
     coast: Coast,
     running: Option<RunningDerivation>,
-    succession: Succession<Key>,
+    succession: Succession<DerivationKey>,
     /// The data for which no mesh could be derived: it is not tried again.
-    failed: Option<Key>,
+    failed: Option<DerivationKey>,
 }
 
 /// A mesh that is being derived.
 struct RunningDerivation {
-    key: Key,
+    key: DerivationKey,
     job: Job<DerivationResult>,
     /// The change of the follower's mesh since then.
     since: Option<MeshChange>,
@@ -148,7 +148,7 @@ enum DerivationResult {
 impl Derivation {
     /// Returns the derived mesh, if it belongs to the follower's mesh as it is.
     pub fn current(&self, follower: &Follower) -> Option<&Derived> {
-        self.latest.as_ref().filter(|derived| Key::of(follower).as_ref() == Some(&derived.key))
+        self.latest.as_ref().filter(|derived| DerivationKey::of(follower).as_ref() == Some(&derived.key))
     }
 
     /// Returns the pieces that are drawn in place of triangles of the follower's mesh.
@@ -229,7 +229,7 @@ impl Derivation {
         let may_start = follower.stage().is_settled() && (is_small || !in_gesture);
         loop {
             if let Some(running) = &self.running {
-                if let Some(key) = Key::of(follower).filter(|_| may_start)
+                if let Some(key) = DerivationKey::of(follower).filter(|_| may_start)
                     && self.succession.gives_way(&running.key, &key, jobs)
                 {
                     running.job.cancel();
@@ -241,7 +241,7 @@ impl Derivation {
                 }
                 continue;
             }
-            match Key::of(follower) {
+            match DerivationKey::of(follower) {
                 Some(key) if self.is_new(&key) && may_start => self.start(key, follower, jobs),
                 Some(_) => return false,
                 None => {
@@ -252,7 +252,7 @@ impl Derivation {
         }
     }
 
-    fn is_new(&self, key: &Key) -> bool {
+    fn is_new(&self, key: &DerivationKey) -> bool {
         self.latest.as_ref().is_none_or(|derived| derived.key != *key) && self.failed.as_ref() != Some(key)
     }
 
@@ -319,7 +319,7 @@ impl Derivation {
         }
     }
 
-    fn start(&mut self, key: Key, follower: &Follower, jobs: &Jobs) {
+    fn start(&mut self, key: DerivationKey, follower: &Follower, jobs: &Jobs) {
         let follows = !self.coast.is_of(follower);
         // Dropping a large one takes longer than a frame.
         let useless = self.coast.take_useless();
@@ -335,14 +335,14 @@ impl Derivation {
             drop(useless);
             Some(work)
         };
-        let job = jobs.start_in_slices(Kind::Compute, begin, DerivationWork::advance);
+        let job = jobs.start_in_slices(JobKind::Compute, begin, DerivationWork::advance);
         self.running = Some(RunningDerivation { key, job, since: None, replaced: Vec::new() });
     }
 }
 
 /// A mesh to be derived, to be kept in step along the coast, and to be compared with the outline.
 struct DerivationWork {
-    key: Key,
+    key: DerivationKey,
     in_world: Domain,
     step: DerivationStep,
 }

@@ -1,6 +1,6 @@
 //! Files that come with the program: they are parts of it.
 
-use crate::app::jobs::{Job, Jobs, Kind};
+use crate::app::jobs::{Job, JobKind, Jobs};
 
 macro_rules! files {
     ($folder:literal: $($file:literal)*) => {
@@ -25,5 +25,5 @@ pub fn fetch<T: Send + 'static>(
     outcome: impl FnOnce(Result<(), String>) -> T + Send + 'static,
     jobs: &Jobs,
 ) -> Job<T> {
-    jobs.start(Kind::Read, |output| _ = output.send(outcome(Ok(()))))
+    jobs.start(JobKind::Read, |output| _ = output.send(outcome(Ok(()))))
 }

@@ -1,8 +1,8 @@
 //! The desktop's own file dialog, on another thread.
 
 use crate::app::clock::{Duration, Instant};
-use crate::app::dialogs::{Answer, Question};
-use crate::app::jobs::{Job, Jobs, Kind};
+use crate::app::dialogs::{SystemAnswer, SystemQuestion};
+use crate::app::jobs::{Job, JobKind, Jobs};
 use crate::app::kit::FileRequest;
 
 /// A dialog that is answered faster than this has not opened.
@@ -14,17 +14,17 @@ pub fn has_dialog(_: FileRequest) -> bool {
 }
 
 /// Asks a question on another thread.
-pub fn ask(question: Question, jobs: &Jobs) -> Job<(Question, Answer)> {
-    jobs.start(Kind::Ask, move |output| {
+pub fn ask(question: SystemQuestion, jobs: &Jobs) -> Job<(SystemQuestion, SystemAnswer)> {
+    jobs.start(JobKind::Ask, move |output| {
         let answer = answer(&question);
         output.send((question, answer));
     })
 }
 
 /// Shows the dialog, and waits for the answer.
-fn answer(question: &Question) -> Answer {
+fn answer(question: &SystemQuestion) -> SystemAnswer {
     if !is_there() {
-        return Answer::NoDialog;
+        return SystemAnswer::NoDialog;
     }
     let request = question.request;
     let began = Instant::now();
@@ -35,9 +35,9 @@ fn answer(question: &Question) -> Answer {
     let path =
         if request.writes() { dialog.set_file_name(&question.name).save_file() } else { dialog.pick_file() };
     match path {
-        Some(path) => Answer::Chosen(path),
-        None if began.elapsed() < FASTEST_CANCEL => Answer::NoDialog,
-        None => Answer::Cancelled,
+        Some(path) => SystemAnswer::Chosen(path),
+        None if began.elapsed() < FASTEST_CANCEL => SystemAnswer::NoDialog,
+        None => SystemAnswer::Cancelled,
     }
 }
 

@@ -19,7 +19,7 @@ use eframe::egui::Context;
 
 use crate::app::clock::{Duration, Instant};
 use crate::app::command::Command;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use crate::app::kit::EditRecorder;
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
@@ -98,7 +98,7 @@ impl JournalKeeper {
         let (found_sender, found) = sync_channel(1);
         let (renewals, to_renew) = channel();
         let place = folder.clone();
-        let finding = jobs.start(Kind::Journal, move |output| {
+        let finding = jobs.start(JobKind::Journal, move |output| {
             for left in journal::left(&place) {
                 if found_sender.send(left).is_err() {
                     // The window has closed in the meantime.
@@ -114,10 +114,10 @@ impl JournalKeeper {
         };
         let keeper = Keeping { folder, journal: None, disk, renewals, ending: Meter::default() };
         let ending = keeper.ending.clone();
-        let keeping = jobs.start(Kind::Journal, move |output| report(output, keeper.run(&entries)));
+        let keeping = jobs.start(JobKind::Journal, move |output| report(output, keeper.run(&entries)));
         let to_keep = sender.clone();
-        let renewing = jobs.start(Kind::Journal, move |_| renew(&to_renew, &to_keep));
-        let waiting = jobs.start(Kind::Journal, move |output| report(output, wait_for_disk(&written)));
+        let renewing = jobs.start(JobKind::Journal, move |_| renew(&to_renew, &to_keep));
+        let waiting = jobs.start(JobKind::Journal, move |output| report(output, wait_for_disk(&written)));
         Self {
             sender,
             writing: [keeping, renewing, waiting].map(Some),
@@ -155,7 +155,7 @@ impl JournalKeeper {
     }
 
     /// Takes the answer about the work of an earlier run, and returns the command to run now.
-    pub fn answer(&mut self, answer: Answer) -> Option<Command> {
+    pub fn answer(&mut self, answer: ConfirmAnswer) -> Option<Command> {
         let (command, forgotten) = recovery::take_answer(&mut self.offered, answer);
         forgotten.into_iter().for_each(|left| self.forget(left));
         command

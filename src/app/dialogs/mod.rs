@@ -20,13 +20,13 @@ use super::command::{Command, FileCommand, ShellCommand, ViewCommand};
 use super::document_id::DocumentId;
 use super::host;
 use super::jobs::Jobs;
-use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState, Place};
+use crate::app::kit::{CatalogItem, DataFile, DockPlace, FileAct, FileRequest, FrameState};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
 use meshbrush_ui::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
-pub use system::{Answer, Question};
+pub use system::{SystemAnswer, SystemQuestion};
 
 use system::SystemDialog;
 
@@ -112,7 +112,7 @@ impl Dialogs {
         jobs: &Jobs,
     ) {
         let folder = self.folders.of(request, beside);
-        let question = Question { request, document, folder, name: name.to_owned() };
+        let question = SystemQuestion { request, document, folder, name: name.to_owned() };
         if self.uses_system && host::has_dialog(request) {
             self.system.ask(question, jobs);
         } else {
@@ -120,7 +120,7 @@ impl Dialogs {
         }
     }
 
-    fn open_file_dialog(&mut self, question: &Question, jobs: &Jobs) {
+    fn open_file_dialog(&mut self, question: &SystemQuestion, jobs: &Jobs) {
         self.open = None;
         self.file = Some(FileDialog::new(question.request, &question.folder, &question.name, jobs));
     }
@@ -140,21 +140,21 @@ impl Dialogs {
 
     fn command_after(
         &mut self,
-        (question, answer): (Question, Answer),
+        (question, answer): (SystemQuestion, SystemAnswer),
         document: DocumentId,
         jobs: &Jobs,
     ) -> Result<Option<Command>, &'static str> {
         let request = question.request;
         match answer {
-            Answer::Chosen(path) => {
+            SystemAnswer::Chosen(path) => {
                 self.folders.note(request, path.parent());
                 if question.document != document && request.act != FileAct::OpenDocument {
                     return Err(request.title);
                 }
                 Ok(Some((request.command_after_browsing)(path)))
             }
-            Answer::Cancelled => Ok(None),
-            Answer::NoDialog => {
+            SystemAnswer::Cancelled => Ok(None),
+            SystemAnswer::NoDialog => {
                 self.uses_system = false;
                 self.open_file_dialog(&question, jobs);
                 Ok(None)
@@ -216,7 +216,7 @@ fn palette(ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) 
         let words = words_of(&item.title);
         PaletteItem { title: &item.title, words, keys, enabled: item.enabled }
     });
-    let titles: Vec<String> = PLACES.iter().map(Place::title).collect();
+    let titles: Vec<String> = PLACES.iter().map(DockPlace::title).collect();
     let places = (PLACES.iter().zip(&titles)).map(|(place, title)| PaletteItem {
         title,
         words: place.words,
@@ -269,14 +269,15 @@ mod tests {
         let jobs = Jobs::new(&Context::default());
         let mut dialogs = Dialogs::default();
         let [asked, other] = [DocumentId::default(), DocumentId::default().next()];
-        let mut answered = |request: FileRequest, answer: Answer, open: DocumentId| {
-            let question = Question { request, document: asked, folder: PathBuf::new(), name: "a".into() };
+        let mut answered = |request: FileRequest, answer: SystemAnswer, open: DocumentId| {
+            let question =
+                SystemQuestion { request, document: asked, folder: PathBuf::new(), name: "a".into() };
             dialogs.command_after((question, answer), open, &jobs).map(|command| command.is_some())
         };
-        let chosen = || Answer::Chosen(PathBuf::from("a.vtu"));
+        let chosen = || SystemAnswer::Chosen(PathBuf::from("a.vtu"));
         assert_eq!(answered(&EXPORT_MESH, chosen(), asked), Ok(true));
         assert_eq!(answered(&EXPORT_MESH, chosen(), other), Err(EXPORT_MESH.title));
         assert_eq!(answered(&OPEN_ANY, chosen(), other), Ok(true));
-        assert_eq!(answered(&EXPORT_MESH, Answer::Cancelled, other), Ok(false));
+        assert_eq!(answered(&EXPORT_MESH, SystemAnswer::Cancelled, other), Ok(false));
     }
 }

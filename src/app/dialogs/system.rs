@@ -9,7 +9,7 @@ use crate::app::kit::FileRequest;
 
 /// A request that is shown in a dialog of the system.
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct SystemQuestion {
     /// The purpose of the file.
     pub request: FileRequest,
     /// The document that was open then.
@@ -20,9 +20,9 @@ pub struct Question {
     pub name: String,
 }
 
-/// How a [`Question`] was answered.
+/// How a [`SystemQuestion`] was answered.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum SystemAnswer {
     /// A path was chosen.
     Chosen(PathBuf),
     /// The dialog was closed without a choice.
@@ -33,7 +33,7 @@ pub enum Answer {
 
 /// Asks one question at a time.
 #[derive(Default)]
-pub struct SystemDialog(Option<Job<(Question, Answer)>>);
+pub struct SystemDialog(Option<Job<(SystemQuestion, SystemAnswer)>>);
 
 impl SystemDialog {
     /// Returns whether a question has not been answered yet.
@@ -42,7 +42,7 @@ impl SystemDialog {
     }
 
     /// Asks a question, unless another one is open.
-    pub fn ask(&mut self, question: Question, jobs: &Jobs) {
+    pub fn ask(&mut self, question: SystemQuestion, jobs: &Jobs) {
         if self.is_asking() {
             return;
         }
@@ -50,7 +50,7 @@ impl SystemDialog {
     }
 
     /// Returns the answer, once it is there.
-    pub fn take(&mut self) -> Option<(Question, Answer)> {
+    pub fn take(&mut self) -> Option<(SystemQuestion, SystemAnswer)> {
         let taken = self.0.as_ref()?.take_ready();
         if matches!(taken, Taken::Working) {
             return None;

@@ -71,7 +71,7 @@ const REST: Duration = Duration::from_millis(400);
 
 /// The purpose of a job. There are so many threads for each at most; more jobs wait their turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum JobKind {
     /// Jobs that compute contents of the window, or an edit of the document.
     Compute,
     /// Jobs that read a file. The code that started a job reports a panic.
@@ -85,7 +85,7 @@ pub enum Kind {
     Journal,
 }
 
-impl Kind {
+impl JobKind {
     const ALL: [Self; 5] = [Self::Compute, Self::Read, Self::Write, Self::Ask, Self::Journal];
     /// Kinds of work that frames can do, those that a person waits for first. That of the journal waits for
     /// gestures, and would not return.
@@ -203,7 +203,7 @@ impl Jobs {
         let allowed = if is_busy { Allowed::Short } else { Allowed::All };
         let mut ran = Ran::Slice;
         while ran == Ran::Slice && (began.elapsed() < SHARE || self.waits_for_all()) {
-            ran = self.0.queue.run_slice(&Kind::IN_FRAMES, allowed);
+            ran = self.0.queue.run_slice(&JobKind::IN_FRAMES, allowed);
         }
         if ran == Ran::Slice && !is_busy && is_slow {
             self.work_on_until(began + SHARE_OF_SLOW_FRAMES);
@@ -219,7 +219,7 @@ impl Jobs {
     /// Does more slices, of work that is known to be done in time.
     fn work_on_until(&self, end: Instant) {
         let left = || end.saturating_duration_since(Instant::now());
-        while self.0.queue.run_slice(&Kind::IN_FRAMES, Allowed::Within(left())) == Ran::Slice {}
+        while self.0.queue.run_slice(&JobKind::IN_FRAMES, Allowed::Within(left())) == Ran::Slice {}
     }
 
     fn frame(&self) -> u64 {
@@ -250,7 +250,7 @@ impl Jobs {
     #[track_caller]
     pub fn start<T: Send + 'static>(
         &self,
-        kind: Kind,
+        kind: JobKind,
         work: impl FnOnce(&Output<T>) + Send + 'static,
     ) -> Job<T> {
         let mut work = Some(work);
@@ -268,7 +268,7 @@ impl Jobs {
     #[track_caller]
     pub fn start_in_slices<T: Send + 'static, S: Send + 'static>(
         &self,
-        kind: Kind,
+        kind: JobKind,
         begin: impl FnOnce() -> Option<S> + Send + 'static,
         mut slice: impl FnMut(&mut S, &Output<T>) -> Progress + Send + 'static,
     ) -> Job<T> {
@@ -286,7 +286,7 @@ impl Jobs {
     #[track_caller]
     fn start_slices<T: Send + 'static>(
         &self,
-        kind: Kind,
+        kind: JobKind,
         mut slice: impl FnMut(&Output<T>) -> Progress + Send + 'static,
     ) -> Job<T> {
         let (job, output) = self.expect();
@@ -324,7 +324,7 @@ impl Jobs {
 
     /// Waits until no file is being written, or the time is over: for a window that is being closed.
     pub fn wait_for_writing(&self, longest: Duration) {
-        self.0.queue.wait(Kind::Write, longest);
+        self.0.queue.wait(JobKind::Write, longest);
         self.0.inbox.drain();
     }
 
@@ -333,7 +333,7 @@ impl Jobs {
         while !matches!(job.take_ready(), Taken::Ended) {
             if !self.is_without_threads() {
                 self.0.inbox.receive_within(Duration::MAX);
-            } else if self.0.queue.run_slice(&Kind::IN_FRAMES, Allowed::All) == Ran::Slice {
+            } else if self.0.queue.run_slice(&JobKind::IN_FRAMES, Allowed::All) == Ran::Slice {
                 self.0.inbox.drain();
             } else {
                 return;
@@ -345,8 +345,8 @@ impl Jobs {
     fn receive(&self) -> bool {
         if self.is_without_threads() {
             // What was requested in this frame is done in the next one, except where frames wait.
-            let worked =
-                self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES, Allowed::All) == Ran::Slice;
+            let worked = self.waits_for_all()
+                && self.0.queue.run_slice(&JobKind::IN_FRAMES, Allowed::All) == Ran::Slice;
             self.0.inbox.drain();
             return worked;
         }
@@ -385,7 +385,7 @@ impl Jobs {
 
     /// Waits until the threads of all jobs but the journal have ended.
     pub fn wait_for_threads(&self) {
-        for kind in Kind::ALL.into_iter().filter(|&kind| kind != Kind::Journal) {
+        for kind in JobKind::ALL.into_iter().filter(|&kind| kind != JobKind::Journal) {
             self.0.queue.wait(kind, Duration::from_secs(60));
             assert_eq!(self.threads(kind), 0, "{kind:?} does not end");
         }
@@ -397,7 +397,7 @@ impl Jobs {
     }
 
     /// Returns how many threads a kind of jobs has now.
-    pub fn threads(&self, kind: Kind) -> usize {
+    pub fn threads(&self, kind: JobKind) -> usize {
         self.0.queue.running(kind)
     }
 

@@ -5,7 +5,7 @@ use std::panic::Location;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-use super::Kind;
+use super::JobKind;
 use crate::app::clock::{Duration, Instant};
 
 /// Runs work on threads: so many of each kind at once, the others in their order. A thread ends when no work
@@ -79,8 +79,8 @@ struct JobThreads {
 /// By kind.
 #[derive(Default)]
 struct QueueState {
-    waiting: [VecDeque<WaitingJob>; Kind::ALL.len()],
-    running: [usize; Kind::ALL.len()],
+    waiting: [VecDeque<WaitingJob>; JobKind::ALL.len()],
+    running: [usize; JobKind::ALL.len()],
     /// No thread could be started.
     is_without_threads: bool,
     /// How long the longest slice of work from each source takes, where frames do the work.
@@ -89,8 +89,8 @@ struct QueueState {
 
 impl QueueState {
     /// Takes the oldest work of a kind that is allowed.
-    fn take(&mut self, kind: Kind, allowed: Allowed) -> Option<WaitingJob> {
-        let can_wait = matches!(kind, Kind::Compute | Kind::Write);
+    fn take(&mut self, kind: JobKind, allowed: Allowed) -> Option<WaitingJob> {
+        let can_wait = matches!(kind, JobKind::Compute | JobKind::Write);
         let may_run = |work: &WaitingJob| {
             let longest = self.longest.get(work.source);
             match allowed {
@@ -119,7 +119,7 @@ impl QueueState {
 
 impl Queue {
     /// Runs work, which does not panic, as soon as a thread is free.
-    pub fn push(&self, kind: Kind, source: Source, work: impl FnMut() -> Turn + Send + 'static) {
+    pub fn push(&self, kind: JobKind, source: Source, work: impl FnMut() -> Turn + Send + 'static) {
         let work = WaitingJob { run: Box::new(work), source, longest: Duration::ZERO, since: Instant::now() };
         let mut state = self.0.lock();
         state.waiting[kind as usize].push_back(work);
@@ -150,8 +150,8 @@ impl Queue {
 
     /// Runs a slice of the oldest work of the first of these kinds that has some, on the calling thread. Work
     /// that is not done goes to the end of its row, so that others get their turn.
-    pub fn run_slice(&self, kinds: &[Kind], allowed: Allowed) -> Ran {
-        let next = |kind: &Kind| Some((*kind, self.0.lock().take(*kind, allowed)?));
+    pub fn run_slice(&self, kinds: &[JobKind], allowed: Allowed) -> Ran {
+        let next = |kind: &JobKind| Some((*kind, self.0.lock().take(*kind, allowed)?));
         let Some((kind, mut work)) = kinds.iter().find_map(next) else {
             let state = self.0.lock();
             let is_left = kinds.iter().any(|&kind| !state.waiting[kind as usize].is_empty());
@@ -168,7 +168,7 @@ impl Queue {
     }
 
     /// Waits until no work of a kind runs, or the time is over. Without threads it does the work.
-    pub fn wait(&self, kind: Kind, longest: Duration) {
+    pub fn wait(&self, kind: JobKind, longest: Duration) {
         if self.is_without_threads() {
             while self.run_slice(&[kind], Allowed::All) == Ran::Slice {}
             return;
@@ -186,7 +186,7 @@ impl Queue {
 
     /// Returns how many threads a kind of work has now.
     #[cfg(test)]
-    pub fn running(&self, kind: Kind) -> usize {
+    pub fn running(&self, kind: JobKind) -> usize {
         self.0.lock().running[kind as usize]
     }
 }
@@ -198,7 +198,7 @@ impl JobThreads {
     }
 
     /// Takes the oldest work of a kind; where there is none, the thread ends.
-    fn next_or_end(&self, kind: Kind) -> Option<WaitingJob> {
+    fn next_or_end(&self, kind: JobKind) -> Option<WaitingJob> {
         let mut state = self.lock();
         let next = state.waiting[kind as usize].pop_front();
         if next.is_none() {
@@ -208,7 +208,7 @@ impl JobThreads {
         next
     }
 
-    fn run(&self, kind: Kind) {
+    fn run(&self, kind: JobKind) {
         while let Some(mut work) = self.next_or_end(kind) {
             while (work.run)() == Turn::More {}
         }

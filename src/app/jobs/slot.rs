@@ -1,7 +1,7 @@
 //! The last value for a key that changes, computed by jobs.
 
 use super::succession::Succession;
-use super::{Job, Jobs, Kind, Output, Taken, Wanted};
+use super::{Job, JobKind, Jobs, Output, Taken, Wanted};
 use meshbrush_mesh::mesh::Progress;
 
 /// Memoizes the last value computed for a key, and keeps the one that is being computed. The key holds
@@ -109,7 +109,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
         if self.running.is_some() || self.failed.as_ref() == Some(&key) {
             return;
         }
-        let job = jobs.start(Kind::Compute, |output| {
+        let job = jobs.start(JobKind::Compute, |output| {
             if let Some(value) = compute(output.wanted()) {
                 output.send(value);
             }
@@ -138,7 +138,7 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
                 Progress::Done
             }
         };
-        let job = jobs.start_in_slices(Kind::Compute, begin, slice);
+        let job = jobs.start_in_slices(JobKind::Compute, begin, slice);
         self.running = Some(RunningJob { key, job, is_forgotten: false });
     }
 

@@ -5,7 +5,7 @@ use eframe::egui::Context;
 use fastrand::Rng;
 
 use super::succession::STILL;
-use super::{Jobs, Kind, Slot, Wanted};
+use super::{JobKind, Jobs, Slot, Wanted};
 use crate::app::document_id::DocumentId;
 
 fn patient_jobs() -> Jobs {
@@ -44,7 +44,7 @@ fn what_is_stopped_ends_before_anything_else_starts() {
     for key in 0..50 {
         slot.start_wanted(key, endless, &jobs);
         slot.stop(&jobs);
-        assert!(!slot.has(&key) && jobs.threads(Kind::Compute) <= 1);
+        assert!(!slot.has(&key) && jobs.threads(JobKind::Compute) <= 1);
     }
     assert!(!slot.take(&jobs));
     jobs.wait_for_threads();

@@ -17,7 +17,7 @@ fn endless(output: &Output<()>) {
 fn a_frame_waits_for_all_its_jobs_together_no_longer_than_its_patience() {
     let jobs = Jobs::new(&Context::default());
     let running: Vec<Job<()>> =
-        (0..Kind::Compute.most()).map(|_| jobs.start(Kind::Compute, endless)).collect();
+        (0..JobKind::Compute.most()).map(|_| jobs.start(JobKind::Compute, endless)).collect();
     jobs.begin_frame(0.0);
     assert!(running.iter().all(|job| matches!(job.take(&jobs), Taken::Working)));
     assert_eq!(jobs.0.inbox.patience(), Duration::ZERO, "the jobs used up one patience together");
@@ -31,7 +31,7 @@ fn ceaseless(output: &Output<()>) {
 #[test]
 fn three_receivers_of_values_that_never_end_leave_the_frame_when_its_time_is_over() {
     let jobs = Jobs::new(&Context::default());
-    let running: Vec<Job<()>> = (0..3).map(|_| jobs.start(Kind::Compute, ceaseless)).collect();
+    let running: Vec<Job<()>> = (0..3).map(|_| jobs.start(JobKind::Compute, ceaseless)).collect();
     let one_by_one = |job: &Job<()>| {
         let mut taken = 0;
         while matches!(job.take(&jobs), Taken::Value(())) {
@@ -55,7 +55,7 @@ fn three_receivers_of_values_that_never_end_leave_the_frame_when_its_time_is_ove
 #[test]
 fn values_that_a_frame_leaves_are_taken_by_the_next_one() {
     let jobs = Jobs::new(&Context::default());
-    let job = jobs.start(Kind::Compute, |output| (0..5).for_each(|n| _ = output.send(n)));
+    let job = jobs.start(JobKind::Compute, |output| (0..5).for_each(|n| _ = output.send(n)));
     jobs.wait_for_threads();
     let mut taken = Vec::new();
     for frame in 1.. {
@@ -84,7 +84,7 @@ fn no_more_jobs_of_a_kind_run_at_once_than_it_has_threads() {
     let started: Vec<Job<usize>> = (0..100)
         .map(|number| {
             let (running, most) = (running.clone(), most.clone());
-            jobs.start(Kind::Compute, move |output| {
+            jobs.start(JobKind::Compute, move |output| {
                 most.fetch_max(running.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
                 std::thread::yield_now();
                 running.fetch_sub(1, Ordering::SeqCst);
@@ -96,16 +96,16 @@ fn no_more_jobs_of_a_kind_run_at_once_than_it_has_threads() {
         assert!(matches!(job.take(&jobs), Taken::Value(value) if value == number));
         assert!(matches!(job.take(&jobs), Taken::Ended));
     }
-    assert!((1..=Kind::Compute.most()).contains(&most.load(Ordering::SeqCst)));
+    assert!((1..=JobKind::Compute.most()).contains(&most.load(Ordering::SeqCst)));
 }
 
 #[test]
 fn a_job_that_nobody_wants_any_more_does_not_begin() {
     let jobs = Jobs::new(&Context::default());
-    let holding: Vec<Job<()>> = (0..Kind::Ask.most()).map(|_| jobs.start(Kind::Ask, endless)).collect();
+    let holding: Vec<Job<()>> = (0..JobKind::Ask.most()).map(|_| jobs.start(JobKind::Ask, endless)).collect();
     let begun = Arc::new(AtomicUsize::new(0));
     let begins = begun.clone();
-    drop(jobs.start(Kind::Ask, move |_: &Output<()>| {
+    drop(jobs.start(JobKind::Ask, move |_: &Output<()>| {
         begins.fetch_add(1, Ordering::SeqCst);
     }));
     drop(holding);
@@ -116,8 +116,8 @@ fn a_job_that_nobody_wants_any_more_does_not_begin() {
 #[test]
 fn a_window_that_is_closed_waits_for_writing_and_not_for_reading() {
     let jobs = Jobs::new(&Context::default());
-    let _reading = jobs.start(Kind::Read, endless);
-    let writing = jobs.start(Kind::Write, |output: &Output<u32>| {
+    let _reading = jobs.start(JobKind::Read, endless);
+    let writing = jobs.start(JobKind::Write, |output: &Output<u32>| {
         output.send(7);
     });
     // The reading never ends by itself: waiting for it would take an hour.
@@ -148,7 +148,7 @@ fn the_context_ends_with_the_window_while_a_job_still_runs() {
     let jobs = Jobs::new(&ctx);
     let (end, may_end) = std::sync::mpsc::channel::<()>();
     let (began, has_begun) = std::sync::mpsc::channel();
-    let job = jobs.start(Kind::Compute, move |output: &Output<()>| {
+    let job = jobs.start(JobKind::Compute, move |output: &Output<()>| {
         began.send(()).expect("the test waits");
         let _ = may_end.recv();
         output.wake();
@@ -156,9 +156,9 @@ fn the_context_ends_with_the_window_while_a_job_still_runs() {
     has_begun.recv().expect("the job begins");
     let queue = jobs.0.queue.clone();
     drop((job, jobs, ctx));
-    let (dropped, running) = (dropped.load(Ordering::Relaxed), queue.running(Kind::Compute));
+    let (dropped, running) = (dropped.load(Ordering::Relaxed), queue.running(JobKind::Compute));
     drop(end);
-    queue.wait(Kind::Compute, Duration::from_secs(60));
+    queue.wait(JobKind::Compute, Duration::from_secs(60));
     assert_eq!((dropped, running), (1, 1), "contexts that ended, and jobs that ran at that moment");
 }
 
@@ -166,11 +166,15 @@ fn the_context_ends_with_the_window_while_a_job_still_runs() {
 fn a_panic_of_each_kind_of_job_ends_it_and_gives_one_message_where_nobody_else_does() {
     let jobs = Jobs::new(&Context::default());
     jobs.wait_for_all();
-    for kind in Kind::ALL {
+    for kind in JobKind::ALL {
         let job = jobs.start(kind, |_: &Output<()>| panic!("a job of a test"));
         assert!(matches!(job.take(&jobs), Taken::Ended), "{kind:?}");
         let problems = jobs.take_problems();
-        assert_eq!(problems.len(), usize::from(!matches!(kind, Kind::Read | Kind::Write)), "{problems:?}");
+        assert_eq!(
+            problems.len(),
+            usize::from(!matches!(kind, JobKind::Read | JobKind::Write)),
+            "{problems:?}"
+        );
     }
 }
 
@@ -180,7 +184,7 @@ fn values_of_each_job_come_in_their_order_whatever_the_order_of_the_jobs() {
         let (jobs, mut random) = (Jobs::new(&Context::default()), Rng::with_seed(seed));
         jobs.hold();
         let started: Vec<Job<u32>> = (0..5)
-            .map(|_| jobs.start(Kind::Compute, |output| (0..4).for_each(|value| _ = output.send(value))))
+            .map(|_| jobs.start(JobKind::Compute, |output| (0..4).for_each(|value| _ = output.send(value))))
             .collect();
         jobs.wait_for_threads();
         jobs.begin_frame(0.0);
@@ -222,7 +226,7 @@ fn without_threads_a_frame_does_one_long_slice_and_jobs_take_turns() {
             *next += 1;
             if *next % 10 == 3 { Progress::Done } else { Progress::More }
         };
-        jobs.start_in_slices(Kind::Compute, move || Some(first), slice)
+        jobs.start_in_slices(JobKind::Compute, move || Some(first), slice)
     };
     let (one, other) = (counts(0), counts(10));
     assert!(matches!(one.take(&jobs), Taken::Working), "no frame waits");
@@ -248,19 +252,19 @@ fn without_threads_long_work_waits_for_the_hand_to_rest_and_short_work_does_not(
     let (done, here) = (Arc::new(AtomicUsize::new(0)), Location::caller());
     let long = || {
         let done = done.clone();
-        queue.push(Kind::Compute, here, move || {
+        queue.push(JobKind::Compute, here, move || {
             long_slice();
             std::thread::sleep(Duration::from_millis(40));
             done.fetch_add(1, Ordering::Relaxed);
             Turn::Done
         });
     };
-    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, if busy { Allowed::Short } else { Allowed::All });
+    let run = |busy| queue.run_slice(&JobKind::IN_FRAMES, if busy { Allowed::Short } else { Allowed::All });
     long();
     assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
     long();
     assert_eq!(run(true), Ran::Later);
-    queue.push(Kind::Compute, Location::caller(), || Turn::Done);
+    queue.push(JobKind::Compute, Location::caller(), || Turn::Done);
     assert_eq!((run(true), run(true)), (Ran::Slice, Ran::Later), "short work behind it goes on");
     assert_eq!(done.load(Ordering::Relaxed), 1);
     assert_eq!((run(false), run(false)), (Ran::Slice, Ran::Nothing));
@@ -275,7 +279,7 @@ fn without_threads_a_long_slice_is_expected_anywhere_in_work_that_had_one() {
     let here = Location::caller();
     let work = |short: usize, longest_ms: u64, end: Turn| {
         let mut slice = 0;
-        queue.push(Kind::Compute, here, move || {
+        queue.push(JobKind::Compute, here, move || {
             slice += 1;
             if slice <= short {
                 return Turn::More;
@@ -284,7 +288,7 @@ fn without_threads_a_long_slice_is_expected_anywhere_in_work_that_had_one() {
             end
         });
     };
-    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, if busy { Allowed::Short } else { Allowed::All });
+    let run = |busy| queue.run_slice(&JobKind::IN_FRAMES, if busy { Allowed::Short } else { Allowed::All });
     work(0, 60, Turn::Done);
     assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
     work(3, 60, Turn::Done);
@@ -306,14 +310,14 @@ fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_
     let jobs = Jobs::new(&Context::default());
     jobs.do_without_threads();
     let done = Arc::new(std::sync::Mutex::new(Vec::new()));
-    let work = |kind: Kind| {
+    let work = |kind: JobKind| {
         let done = done.clone();
         jobs.start(kind, move |_: &Output<()>| done.lock().unwrap().push(kind))
     };
-    let _kept = [work(Kind::Compute), work(Kind::Read), work(Kind::Write), work(Kind::Journal)];
-    drop(work(Kind::Ask));
+    let _kept = [work(JobKind::Compute), work(JobKind::Read), work(JobKind::Write), work(JobKind::Journal)];
+    drop(work(JobKind::Ask));
     jobs.begin_frame(0.0);
-    assert_eq!(*done.lock().unwrap(), [Kind::Read, Kind::Write, Kind::Compute]);
+    assert_eq!(*done.lock().unwrap(), [JobKind::Read, JobKind::Write, JobKind::Compute]);
     // Work that is requested in a frame makes another one follow.
     let ctx = Context::default();
     let others = Jobs::new(&ctx);
@@ -322,10 +326,10 @@ fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_
         ctx.run_ui(RawInput::default(), |_| {}).drop_without_applying_deltas();
     }
     assert!(!ctx.has_requested_repaint());
-    let _job = others.start(Kind::Compute, |_: &Output<()>| {});
+    let _job = others.start(JobKind::Compute, |_: &Output<()>| {});
     assert!(ctx.has_requested_repaint());
     // A window that is closed completes what is being written.
-    let _writing = work(Kind::Write);
+    let _writing = work(JobKind::Write);
     jobs.wait_for_writing(Duration::ZERO);
     assert_eq!(done.lock().unwrap().len(), 4);
 }
@@ -344,7 +348,7 @@ fn without_threads_a_slow_frame_does_more_slices_while_the_hand_rests() {
             count.fetch_add(1, Ordering::Relaxed);
             Progress::More
         };
-        let _job = jobs.start_in_slices(Kind::Write, || Some(()), slice);
+        let _job = jobs.start_in_slices(JobKind::Write, || Some(()), slice);
         let frame = |time: f64, events| {
             let input = RawInput { time: Some(time), events, ..Default::default() };
             let before = done.load(Ordering::Relaxed);
@@ -369,7 +373,7 @@ fn without_threads_a_window_that_is_closed_does_the_work_it_waits_for() {
         *left -= 1;
         if *left == 0 { Progress::Done } else { Progress::More }
     };
-    let job = jobs.start_in_slices(Kind::Write, || Some(5), slice);
+    let job = jobs.start_in_slices(JobKind::Write, || Some(5), slice);
     assert!(matches!(job.take_ready(), Taken::Working));
     jobs.wait_for_end(&job);
     assert!(matches!(job.take_ready(), Taken::Ended));

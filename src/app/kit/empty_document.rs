@@ -13,24 +13,24 @@ use meshbrush_io::io::layers::RasterFrame;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
-/// The settings of a document in which nothing was painted, and which has the usual domain and layers.
+/// The settings of a document in which nothing was painted, and which has the default domain and layers.
 #[derive(Clone, Debug)]
 pub struct EmptyDocument(Settings);
 
 impl EmptyDocument {
     /// Returns the settings of the document if it is empty.
     pub fn of(session: &Session) -> Option<Self> {
-        let (document, usual) = (session.document(), Settings::default());
+        let (document, default) = (session.document(), Settings::default());
         let settings = document.settings();
-        let has_usual_lengths = settings.domain == usual.domain
-            && settings.spacing == usual.spacing
-            && settings.transfer == usual.transfer
-            && settings.layers == usual.layers;
+        let has_default_lengths = settings.domain == default.domain
+            && settings.spacing == default.spacing
+            && settings.transfer == default.transfer
+            && settings.layers == default.layers;
         let has_no_data = document.paint().is_blank()
             && settings.background.is_none()
             && settings.pins.is_empty()
-            && settings.paths == usual.paths;
-        (has_usual_lengths && has_no_data).then(|| Self(settings.clone()))
+            && settings.paths == default.paths;
+        (has_default_lengths && has_no_data).then(|| Self(settings.clone()))
     }
 
     /// Returns the settings over the extent of a file, with lengths in proportion to it; `None` if the extent
@@ -47,8 +47,8 @@ impl EmptyDocument {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let unit = if unit == LengthUnit::None { self.0.unit } else { unit };
         let Settings { rule, cleaning, gradation, max_triangles, max_memory, max_level, .. } = self.0;
-        let usual = Settings::for_domain(name, domain);
-        Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, max_level, ..usual }
+        let default = Settings::for_domain(name, domain);
+        Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, max_level, ..default }
     }
 }
 

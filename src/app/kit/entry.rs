@@ -72,7 +72,7 @@ pub struct CatalogItem {
     /// The keys that run it; the first one is shown.
     pub shortcuts: Vec<KeyboardShortcut>,
     /// The keys that it has where nobody changed them.
-    pub usual_shortcuts: Vec<KeyboardShortcut>,
+    pub default_shortcuts: Vec<KeyboardShortcut>,
     /// The situation in which its keys work, such as a tool; entries of different ones can share a key.
     pub situation: Option<&'static str>,
     /// Whether its keys work now.
@@ -102,7 +102,7 @@ impl CatalogItem {
             menu,
             title,
             shortcuts: Vec::new(),
-            usual_shortcuts: Vec::new(),
+            default_shortcuts: Vec::new(),
             situation: None,
             keys_work: true,
             gesture: "",
@@ -156,7 +156,7 @@ impl CatalogItem {
     pub fn keys(mut self, modifiers: Modifiers, key: Key) -> Self {
         let shortcut = KeyboardShortcut::new(modifiers, key);
         self.shortcuts.push(shortcut);
-        self.usual_shortcuts.push(shortcut);
+        self.default_shortcuts.push(shortcut);
         self
     }
 

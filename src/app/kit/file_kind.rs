@@ -12,7 +12,7 @@ pub struct FileKind {
     pub title: &'static str,
     /// The action on the file.
     pub act: FileAct,
-    /// The endings of such files, without the dot, the usual one first.
+    /// The endings of such files, without the dot, the default one first.
     pub endings: fn() -> Vec<&'static str>,
     /// The contents of such files, in the words of a filter.
     pub contents: &'static str,

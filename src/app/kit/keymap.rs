@@ -57,7 +57,7 @@ impl Keymap {
     }
 
     fn set(&mut self, item: &CatalogItem, keys: Vec<KeyboardShortcut>) {
-        if keys == item.usual_shortcuts {
+        if keys == item.default_shortcuts {
             self.0.remove(&item.id);
         } else {
             self.0.insert(item.id.clone(), keys);

@@ -59,7 +59,7 @@ pub use mask_file::with_mask;
 pub use menu_item::menu_item;
 pub use name_field::name_field;
 pub use panel::{Panel, button_rows, end_gesture_when_released, remark, set_once};
-pub use place::Place;
+pub use place::DockPlace;
 pub use radius_row::radius_row;
 pub use shortcut::{same_keys, shortcut_text};
 pub use size_price::size_price_row;

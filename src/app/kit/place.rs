@@ -2,7 +2,7 @@
 
 /// A section of a panel, or a control in it.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct DockPlace {
     /// The name of the panel.
     pub panel: &'static str,
     /// The title or the name of the section.
@@ -13,7 +13,7 @@ pub struct Place {
     pub words: &'static str,
 }
 
-impl Place {
+impl DockPlace {
     /// Creates a place in a panel.
     pub const fn new(panel: &'static str, section: &'static str, control: &'static str) -> Self {
         Self { panel, section, control, words: "" }

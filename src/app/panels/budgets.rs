@@ -31,12 +31,12 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 
 fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let settings = state.session.document().settings();
-    let usual = Settings::default();
+    let default = Settings::default();
     let mut triangles = settings.max_triangles as f64;
     let help =
         "Most triangles of the mesh. A stroke that would need more stops there; a setting is taken back.";
     let row = NumberRow::new(TRIANGLE_BUDGET, &mut triangles).integer().range(TRIANGLE_BUDGETS);
-    if row.default(usual.max_triangles as f64).help(help).show(ui).changed() {
+    if row.default(default.max_triangles as f64).help(help).show(ui).changed() {
         set_once(Setting::MaxTriangles(triangles as usize), commands);
     }
     let mut gigabytes = settings.max_memory as f64 / GIGABYTE;
@@ -51,7 +51,7 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         .range(range)
         .unit("GB")
         .help(&help);
-    if row.default(usual.max_memory as f64 / GIGABYTE).show(ui).changed() {
+    if row.default(default.max_memory as f64 / GIGABYTE).show(ui).changed() {
         let max_memory = (gigabytes * GIGABYTE).round() as usize;
         set_once(Setting::MaxMemory(max_memory), commands);
     }

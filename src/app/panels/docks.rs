@@ -6,7 +6,7 @@ use super::sections;
 use crate::app::command::{Command, ViewCommand};
 use crate::app::features::report::Report;
 use crate::app::kit::{FrameState, Tab};
-use crate::app::parts::{Part, mark};
+use crate::app::parts::{WindowPart, mark};
 use meshbrush_ui::theme::{metrics, tokens};
 use meshbrush_ui::widgets::tab_bar;
 
@@ -31,11 +31,11 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         .show(ui, |ui| {
             let height = ui.available_height();
             let tallest = (height - LEAST_LOWER).max(LEAST_UPPER);
-            let usual = UPPER_SHARE * height;
+            let default = UPPER_SHARE * height;
             egui::Panel::top("layers")
                 .frame(Frame::new().fill(t.panel).inner_margin(margin()))
                 .resizable(true)
-                .default_size((usual / metrics::GRID).round() * metrics::GRID)
+                .default_size((default / metrics::GRID).round() * metrics::GRID)
                 .size_range(LEAST_UPPER..=tallest)
                 .show(ui, |ui| upper_dock(ui, state, commands));
             lower_dock(ui, state, commands);
@@ -49,7 +49,7 @@ fn margin() -> Margin {
 /// Shows the layers and the selected layer. What has no room is cut off: the dock is as high as it was
 /// dragged.
 fn upper_dock(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    mark(ui, Part::Layers);
+    mark(ui, WindowPart::Layers);
     let place = ui.available_rect_before_wrap();
     let mut inner = ui.new_child(UiBuilder::new().max_rect(place));
     inner.shrink_clip_rect(place.expand2(vec2(metrics::PANEL_MARGIN, 0.0)));
@@ -66,7 +66,7 @@ fn tabs(state: &FrameState<'_>) -> Vec<Tab> {
 }
 
 fn lower_dock(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    mark(ui, Part::Panel);
+    mark(ui, WindowPart::Panel);
     ui.spacing_mut().item_spacing.y = 0.0;
     let tabs = tabs(state);
     let names: Vec<&str> = tabs.iter().map(|tab| tab.name()).collect();

@@ -24,7 +24,7 @@ use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
 use super::command::Command;
 use super::features::{ROWS, report, stepping};
-use super::parts::{Part, mark};
+use super::parts::{WindowPart, mark};
 use crate::app::features::stepping::Stepping;
 use crate::app::kit::{CatalogItem, FrameState, Panel, Tab};
 use meshbrush_ui::theme::{metrics, tokens};
@@ -53,7 +53,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comman
             .resizable(false)
             .exact_size(metrics::TOOL + 12.0)
             .show(ui, |ui| {
-                mark(ui, Part::Tools);
+                mark(ui, WindowPart::Tools);
                 bars::tool_strip(ui, state, commands);
             });
     }
@@ -63,7 +63,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comman
             .resizable(false)
             .exact_size(stepping::WIDTH)
             .show(ui, |ui| {
-                mark(ui, Part::Panel);
+                mark(ui, WindowPart::Panel);
                 step_panel(ui, state, commands);
             });
     } else {
@@ -83,11 +83,11 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comma
     let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
     if state.view.surrounds {
         egui::Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| {
-            mark(ui, Part::Menus);
+            mark(ui, WindowPart::Menus);
             bars::menu_bar(ui, state, entries, commands);
         });
         egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| {
-            mark(ui, Part::Status);
+            mark(ui, WindowPart::Status);
             status::status_bar(ui, state);
         });
     }

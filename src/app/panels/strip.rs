@@ -7,7 +7,7 @@ use eframe::egui::{
 use super::view;
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, StripItem};
-use crate::app::parts::{Part, mark};
+use crate::app::parts::{WindowPart, mark};
 use meshbrush_ui::theme::{font, metrics, tokens};
 use meshbrush_ui::widgets::{Icon, ToolButton};
 
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         .frame(Frame::new().fill(tokens(ui).panel).inner_margin(margin))
         .exact_size(metrics::STRIP)
         .show(ui, |ui| {
-            mark(ui, Part::Strip);
+            mark(ui, WindowPart::Strip);
             ui.horizontal_centered(|ui| {
                 ui.spacing_mut().item_spacing.x = GAP;
                 let options = state.tools.tool.options.iter().filter(|item| (item.is_shown)(state)).collect();

@@ -66,10 +66,10 @@ fn space_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     if !space.is_on {
         return;
     }
-    let usual = space.usual_factor(state.session.mesh().lattice());
-    let mut factor = space.exaggeration.unwrap_or(usual);
-    if number(ui, "Heights ×", &mut factor, 1e-6..=1e6, usual, "").changed() {
-        send(SpaceCommand::Exaggerate((factor != usual).then_some(factor)));
+    let default = space.default_factor(state.session.mesh().lattice());
+    let mut factor = space.exaggeration.unwrap_or(default);
+    if number(ui, "Heights ×", &mut factor, 1e-6..=1e6, default, "").changed() {
+        send(SpaceCommand::Exaggerate((factor != default).then_some(factor)));
     }
     let (mut direction, standard) = (space.direction, ViewDirection::default());
     let azimuth = number(ui, "Look to", &mut direction.azimuth, 0.0..=360.0, standard.azimuth, "°");

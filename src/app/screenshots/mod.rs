@@ -280,7 +280,9 @@ fn deep(window: &mut OffscreenWindow) {
     window.send(Command::from(FileCommand::New));
     window.send(Command::from(EditCommand::Set(Setting::RefinementRule(RefinementRule::Vertex))));
     window.send(Command::from(EditCommand::Set(Setting::SmallestDiameter(1e-8))));
-    window.send(Command::from(EditCommand::Set(Setting::Layers(Layer::usual(LayerKind::target(formula))))));
+    window.send(Command::from(EditCommand::Set(Setting::Layers(Layer::default_stack(LayerKind::target(
+        formula,
+    ))))));
     window.send(Command::from(ShellCommand::Use(&QUERY)));
     look_at(window, place, 2e5);
     window.send(Command::from(InspectCommand::Query(place + dvec2(1.1e-6, 0.7e-6))));

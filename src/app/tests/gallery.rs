@@ -29,7 +29,7 @@ struct State {
     limit: f64,
     chosen: Option<usize>,
     palette: bool,
-    answer: Option<Answer>,
+    answer: Option<ConfirmAnswer>,
     asking: bool,
     clicks: Vec<String>,
     hovered_level: Option<u32>,
@@ -759,15 +759,19 @@ fn a_question_is_answered_by_button_enter_or_escape() {
     let mut harness = asked();
     harness.get_all_by_label("Discard").last().unwrap().click();
     harness.run();
-    assert_eq!(harness.state().answer, Some(Answer::Confirmed));
+    assert_eq!(harness.state().answer, Some(ConfirmAnswer::Confirmed));
     let mut harness = asked();
     harness.get_by_label("Save…").click();
     harness.run();
-    assert_eq!(harness.state().answer, Some(Answer::Alternative));
+    assert_eq!(harness.state().answer, Some(ConfirmAnswer::Alternative));
     for key in [egui::Key::Enter, egui::Key::Escape] {
         let mut harness = asked();
         harness.key_press(key);
         harness.run();
-        assert_eq!(harness.state().answer, Some(Answer::Cancelled), "a danger is not what Enter takes");
+        assert_eq!(
+            harness.state().answer,
+            Some(ConfirmAnswer::Cancelled),
+            "a danger is not what Enter takes"
+        );
     }
 }

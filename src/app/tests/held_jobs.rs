@@ -12,7 +12,7 @@ use crate::app::features::domain::DomainCommand;
 use crate::app::features::plots::{Plots, PlotsCommand};
 use crate::app::features::statistics::Statistics;
 use crate::app::features::threats::ThreatsCommand;
-use crate::app::jobs::Kind;
+use crate::app::jobs::JobKind;
 use crate::app::view::CanvasAid;
 use meshbrush_io::io::project;
 
@@ -117,7 +117,7 @@ fn a_key_that_is_held_starts_no_job_before_the_last_one_has_ended() {
     for _ in 0..50 {
         for _shown in [true, false] {
             send_and_step(&mut window, show_contours());
-            assert!(window.state().jobs.threads(Kind::Compute) <= 1);
+            assert!(window.state().jobs.threads(JobKind::Compute) <= 1);
         }
     }
     assert_eq!(window.state().jobs.started(), started + 1);

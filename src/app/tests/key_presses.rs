@@ -8,7 +8,7 @@ use eframe::egui::{Event, Key, KeyboardShortcut, Modifiers};
 use super::key_table::{in_every_state, states};
 use super::{CTRL_SHIFT, FREE, Window, entries, fingerprint, key, stroke, window};
 use crate::app::features::painting::BRUSH;
-use crate::app::keys::{Press, Receiver, entry_of};
+use crate::app::keys::{KeyPress, Receiver, entry_of};
 use crate::app::kit::{CatalogItem, same_keys, shortcut_text};
 
 /// Shift, Ctrl and Alt, held or not.
@@ -27,8 +27,8 @@ const WITH_SHIFT: &str = "+=:;,./\\|?![]{}`";
 
 /// Returns the keys that a press is, by the characters on the keyboard: with Shift also without it, where
 /// Shift was needed to type the character.
-fn meanings(press: Press) -> Vec<KeyboardShortcut> {
-    let Press { key, physical_key, modifiers } = press;
+fn meanings(press: KeyPress) -> Vec<KeyboardShortcut> {
+    let KeyPress { key, physical_key, modifiers } = press;
     let typed = KeyboardShortcut::new(modifiers, key);
     let place = physical_key.filter(|key| key.name().parse::<u8>().is_ok());
     let by_place = place.map(|key| KeyboardShortcut::new(modifiers, key));
@@ -44,15 +44,15 @@ fn meanings(press: Press) -> Vec<KeyboardShortcut> {
 const DIGITS: [Key; 2] = [Key::Num1, Key::Num7];
 
 /// Returns the presses of a key: at its place on a US keyboard, at an unknown one, and at that of a digit.
-fn presses(key: Key) -> impl Iterator<Item = Press> {
+fn presses(key: Key) -> impl Iterator<Item = KeyPress> {
     let places = [None, Some(key), Some(DIGITS[0]), Some(DIGITS[1])];
     places
         .into_iter()
-        .flat_map(move |physical_key| modifiers().map(|modifiers| Press { key, physical_key, modifiers }))
+        .flat_map(move |physical_key| modifiers().map(|modifiers| KeyPress { key, physical_key, modifiers }))
 }
 
 /// Checks the entry of a press among those that have the key.
-fn check(press: Press, candidates: &[CatalogItem], state: &str) {
+fn check(press: KeyPress, candidates: &[CatalogItem], state: &str) {
     let meanings = meanings(press);
     let has = |item: &CatalogItem, meaning| {
         item.keys_work && item.shortcuts.iter().any(|own| same_keys(own, meaning))
@@ -93,7 +93,7 @@ fn a_press_belongs_to_an_entry_with_exactly_its_keys() {
     assert!(seen.len() > 15, "{} states", seen.len());
 }
 
-fn press_text(press: Press) -> String {
+fn press_text(press: KeyPress) -> String {
     shortcut_text(&KeyboardShortcut::new(press.modifiers, press.key))
 }
 
@@ -127,7 +127,7 @@ fn a_press_with_a_disabled_command_changes_nothing() {
         let mut disabled = BTreeSet::new();
         for item in all.iter().filter(|item| item.keys_work) {
             for &KeyboardShortcut { modifiers, logical_key: key } in &item.shortcuts {
-                let press = Press { key, physical_key: None, modifiers };
+                let press = KeyPress { key, physical_key: None, modifiers };
                 if entry_of(press, Receiver::Canvas, &all).is_none_or(|entry| entry.enabled) {
                     continue;
                 }
@@ -181,7 +181,7 @@ fn characters_are_found_on_keyboards_that_type_them_with_shift() {
     let entries = &states()[0].entries;
     let title = |key, physical_key, shift| {
         let modifiers = Modifiers { shift, ..Modifiers::NONE };
-        let entry = entry_of(Press { key, physical_key, modifiers }, Receiver::Canvas, entries);
+        let entry = entry_of(KeyPress { key, physical_key, modifiers }, Receiver::Canvas, entries);
         entry.map(|entry| entry.title.as_str())
     };
     for (keyboard, key, place, shift, found) in [

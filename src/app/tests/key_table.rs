@@ -181,10 +181,10 @@ fn can_be_typed(shortcut: &KeyboardShortcut, plain: &str, with_shift: &str) -> b
 #[test]
 fn every_default_can_be_typed_on_german_french_and_nordic_keyboards() {
     let mut lacking = BTreeSet::new();
-    let with_keys = |item: &&CatalogItem| !item.usual_shortcuts.is_empty();
+    let with_keys = |item: &&CatalogItem| !item.default_shortcuts.is_empty();
     for item in states().iter().flat_map(|state| &state.entries).filter(with_keys) {
         for (layout, plain, with_shift) in LAYOUTS {
-            if !item.usual_shortcuts.iter().any(|keys| can_be_typed(keys, plain, with_shift)) {
+            if !item.default_shortcuts.iter().any(|keys| can_be_typed(keys, plain, with_shift)) {
                 lacking.insert(format!("{} on a {layout} keyboard", item.title));
             }
         }

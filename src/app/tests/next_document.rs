@@ -64,24 +64,24 @@ fn described(view: &View) -> String {
 #[test]
 fn nothing_of_a_document_is_left_in_the_next_one() {
     let open = Command::from(FileCommand::OpenExample(Example::ALL[1]));
-    let mut usual = window();
-    send(&mut usual, open.clone());
+    let mut default = window();
+    send(&mut default, open.clone());
     let mut changed = window();
     disarrange(&mut changed);
     send(&mut changed, open);
     changed.get_by_role_and_label(Role::Button, "Do not save").click();
     changed.run();
-    let (tools, usual_tools) = (changed.state().tools(), usual.state().tools());
-    assert!(!tools.differs_in_choice(usual_tools));
+    let (tools, default_tools) = (changed.state().tools(), default.state().tools());
+    assert!(!tools.differs_in_choice(default_tools));
     assert_eq!((tools.mirrored, tools.last_painted), ([false; 2], None));
     let extent = settings(&changed).domain.bounds.size().max_element();
     assert_eq!(tools.radius, 0.2 * extent, "the brush keeps its share of the domain");
-    assert_eq!(tools.diameter, usual_tools.diameter);
+    assert_eq!(tools.diameter, default_tools.diameter);
     assert_eq!(
         (tools.settings::<DomainTool>(), tools.settings::<RegionTool>(), tools.error),
-        (usual_tools.settings::<DomainTool>(), usual_tools.settings::<RegionTool>(), 1.0)
+        (default_tools.settings::<DomainTool>(), default_tools.settings::<RegionTool>(), 1.0)
     );
-    assert_eq!(described(changed.state().view()), described(usual.state().view()));
+    assert_eq!(described(changed.state().view()), described(default.state().view()));
     assert_eq!(changed.state().session().queried(), None);
     click(&mut changed, FREE, Modifiers::SHIFT);
     assert_eq!(entries(&changed), 1, "a dab: no line comes from where the last document was painted");

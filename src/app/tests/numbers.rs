@@ -187,7 +187,7 @@ fn choose_in_number_menu(window: &mut Window, at: Pos2, entry: &str) {
 fn the_menu_of_a_number_shows_its_default_and_sets_it() {
     let mut window = quick_window();
     open_section(&mut window, "Mesh");
-    let usual = Settings::default().spacing;
+    let default = Settings::default().spacing;
     let places = [
         field(&window, "Spacing δ value"),
         window.get_by_role_and_label(Role::Slider, "Spacing δ").rect().center(),
@@ -195,11 +195,11 @@ fn the_menu_of_a_number_shows_its_default_and_sets_it() {
     for at in places {
         set(&mut window, Setting::Spacing(0.1));
         let entry = open_number_menu(&mut window, at, "Reset to");
-        assert_eq!(entry, format!("Reset to {}", meshbrush_ui::widgets::format::significant(usual, 3)));
+        assert_eq!(entry, format!("Reset to {}", meshbrush_ui::widgets::format::significant(default, 3)));
         assert_eq!(settings(&window).spacing, 0.1, "a secondary click changes nothing");
         window.get_by_role_and_label(Role::Button, &entry).click();
         window.run();
-        assert_eq!(settings(&window).spacing, usual);
+        assert_eq!(settings(&window).spacing, default);
     }
     let handle = |window: &Window, name| window.get_by_role_and_label(Role::Slider, name).rect().center();
     find(&mut window, Role::Slider, "Curve shape");
@@ -373,7 +373,7 @@ fn focused_button(window: &Window) -> Option<String> {
 fn the_menu_of_a_number_is_opened_by_keyboard_and_gives_the_focus_back() {
     let mut window = quick_window();
     open_section(&mut window, "Mesh");
-    let usual = Settings::default().spacing;
+    let default = Settings::default().spacing;
     for (role, name) in [(Role::TextInput, "Spacing δ value"), (Role::Slider, "Spacing δ")] {
         set(&mut window, Setting::Spacing(0.1));
         let is_focused = |window: &Window| window.get_by_role_and_label(role, name).is_focused();
@@ -385,7 +385,7 @@ fn the_menu_of_a_number_is_opened_by_keyboard_and_gives_the_focus_back() {
         assert!(is_focused(&window), "{name}: the focus is back");
         key(&mut window, Modifiers::SHIFT, Key::F10);
         key(&mut window, Modifiers::NONE, Key::Enter);
-        assert_eq!(settings(&window).spacing, usual, "{name}");
+        assert_eq!(settings(&window).spacing, default, "{name}");
         assert!(is_focused(&window), "{name}");
         key(&mut window, Modifiers::NONE, Key::Escape);
         assert!(window.state().stepping().is_none(), "F10 steps through the refinement, Shift+F10 does not");
@@ -426,7 +426,7 @@ fn the_radius_of_the_brush_is_a_length_on_the_earth_at_the_place() {
     let [low, high] = [[-15.0, 50.0], [15.0, 68.0]].map(|at| projection.plane_from_geographic(at.into()));
     let domain = Domain { projection: Some(projection), ..Domain::rectangle(Rect::new(low, high)) };
     set(&mut window, Setting::LargestDiameter(1e6));
-    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(1e6))));
+    set(&mut window, Setting::Layers(Layer::default_stack(LayerKind::constant(1e6))));
     set(&mut window, Setting::Spacing(5e5));
     set(&mut window, Setting::Domain(domain.clone()));
     set(&mut window, Setting::LengthUnit(LengthUnit::Metre));

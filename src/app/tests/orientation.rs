@@ -60,7 +60,7 @@ fn the_scale_bar_of_a_document_on_the_earth_is_a_length_on_the_earth_with_an_arr
     };
     assert_eq!(north(&window), None);
     set(&mut window, Setting::LargestDiameter(1e6));
-    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(1e6))));
+    set(&mut window, Setting::Layers(Layer::default_stack(LayerKind::constant(1e6))));
     set(&mut window, Setting::Spacing(2e5));
     set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
     for (text, place, turned) in [

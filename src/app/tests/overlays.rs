@@ -23,7 +23,7 @@ fn show(window: &mut Window, theme: ThemePreference, overlay: FieldOverlay) -> P
 }
 
 /// Returns the colour that most pixels around a point have: none of an edge.
-fn usual_color(image: &Picture, middle: Pos2) -> [u8; 3] {
+fn default_color(image: &Picture, middle: Pos2) -> [u8; 3] {
     let offsets = (-3..=3).flat_map(|y| (-3..=3).map(move |x| vec2(x as f32, y as f32)));
     let colors: Vec<[u8; 3]> = offsets.map(|offset| pixel(image, middle + offset)).collect();
     let count = |color: &[u8; 3]| colors.iter().filter(|other| *other == color).count();
@@ -59,15 +59,15 @@ fn the_legends_of_fields_have_the_colours_of_the_canvas() {
         let image = show(&mut window, theme, FieldOverlay::Layer);
         let rows = legend(&window, "Legend: layers");
         let row = |number: f32| pixel(&image, pos2(rows.left() + 9.0, rows.top() + 18.0 * number + 9.0));
-        assert_same(usual_color(&image, painted), row(0.0), 1, "painted risk");
-        assert_same(usual_color(&image, free), row(2.0), 1, "the base");
+        assert_same(default_color(&image, painted), row(0.0), 1, "painted risk");
+        assert_same(default_color(&image, free), row(2.0), 1, "the base");
 
         let image = show(&mut window, theme, FieldOverlay::Risk);
         let scale = cells(&window, &image, "Legend: risk", 17);
         let risk = window.state().session().document().risk_at(PAINTED).unwrap();
         assert!(risk > 0.5, "{risk}");
-        assert_same(usual_color(&image, painted), scale[(16.0 * risk).round() as usize], 10, "risk");
-        assert_same(usual_color(&image, free), scale[0], 1, "no risk");
+        assert_same(default_color(&image, painted), scale[(16.0 * risk).round() as usize], 10, "risk");
+        assert_same(default_color(&image, free), scale[0], 1, "no risk");
 
         let image = show(&mut window, theme, FieldOverlay::Target);
         let rows = legend(&window, "Legend: diameters");
@@ -78,8 +78,8 @@ fn the_legends_of_fields_have_the_colours_of_the_canvas() {
         let level = session.follower().field().level_of_diameter(target, PAINTED).unwrap();
         let row =
             |level: u32| pixel(&image, pos2(rows.left() + 9.0, rows.top() + height * (level as f32 + 0.5)));
-        assert_same(usual_color(&image, painted), row(level), 1, "h̄");
-        assert_same(usual_color(&image, free), row(0), 1, "h̄ of the base");
+        assert_same(default_color(&image, painted), row(level), 1, "h̄");
+        assert_same(default_color(&image, free), row(0), 1, "h̄ of the base");
     }
 }
 
@@ -92,8 +92,8 @@ fn the_legends_of_triangles_have_the_colours_of_the_canvas() {
     for theme in THEMES {
         let image = show(&mut window, theme, FieldOverlay::Age);
         let scale = cells(&window, &image, "Legend: edits ago", 11);
-        assert_same(usual_color(&image, free), scale[0], 1, "the last edit");
-        assert_same(usual_color(&image, far_px), scale[10], 1, "before the first edit");
+        assert_same(default_color(&image, free), scale[0], 1, "the last edit");
+        assert_same(default_color(&image, far_px), scale[10], 1, "before the first edit");
 
         let image = show(&mut window, theme, FieldOverlay::Slack);
         let scale = cells(&window, &image, "Legend: slack", 16);
@@ -102,7 +102,7 @@ fn the_legends_of_triangles_have_the_colours_of_the_canvas() {
         let middle = mesh.view().world_corners(triangle).iter().sum::<DVec2>() / 3.0;
         let target = window.state().session().decision_at(middle).target;
         let slack = (target / mesh.diameter(mesh.triangle(triangle).level())).log2();
-        assert_same(usual_color(&image, far_px), scale[(4.0 * slack) as usize], 10, "slack");
+        assert_same(default_color(&image, far_px), scale[(4.0 * slack) as usize], 10, "slack");
 
         let image = show(&mut window, theme, FieldOverlay::Forced);
         let rows = legend(&window, "Legend: triangles that only");

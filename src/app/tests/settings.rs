@@ -141,7 +141,7 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Spacing(0.0),
         Setting::Spacing(1e-9),
         Setting::SmallestDiameter(f64::NAN),
-        Setting::Layers(Layer::usual(LayerKind::constant(-1.0))),
+        Setting::Layers(Layer::default_stack(LayerKind::constant(-1.0))),
         Setting::Gradation(Some(0.0)),
         Setting::Gradation(Some(f64::NAN)),
         Setting::Bounds(meshbrush_mesh::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
@@ -163,7 +163,7 @@ fn impossible_settings_are_refused_with_a_sentence() {
 #[test]
 fn a_base_of_infinity_asks_for_nothing() {
     let mut window = window_of(TALL);
-    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(0.02))));
+    set(&mut window, Setting::Layers(Layer::default_stack(LayerKind::constant(0.02))));
     super::select_base(&mut window);
     let fine = fingerprint(&window);
     type_into(&mut window, "Target diameter h̄(x, y)", "1/0");
@@ -173,7 +173,7 @@ fn a_base_of_infinity_asks_for_nothing() {
     );
     let nothing = fingerprint(&window);
     let h_max = settings(&window).transfer.h_max;
-    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(h_max))));
+    set(&mut window, Setting::Layers(Layer::default_stack(LayerKind::constant(h_max))));
     assert_eq!(fingerprint(&window), nothing);
 }
 

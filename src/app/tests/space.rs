@@ -66,7 +66,7 @@ fn a_picture_of_the_mesh_is_in_space_as_the_view_is() {
         wait_for_jobs(window);
         std::fs::read(&file).ok()
     };
-    let usual = picture(&mut window, "app-space.png").unwrap();
+    let default = picture(&mut window, "app-space.png").unwrap();
     send(
         &mut window,
         Command::from(ViewCommand::Space(SpaceCommand::LookFrom(ViewDirection {
@@ -75,11 +75,11 @@ fn a_picture_of_the_mesh_is_in_space_as_the_view_is() {
         }))),
     );
     let turned = picture(&mut window, "app-space-turned.png").unwrap();
-    assert!(usual != turned);
+    assert!(default != turned);
     assert_eq!(picture(&mut window, "app-space.svg"), None, "only pixels show what is hidden");
     key(&mut window, Modifiers::SHIFT, Key::V);
     let plan = picture(&mut window, "app-space-plan.png").unwrap();
-    assert!(plan != usual && picture(&mut window, "app-space-plan.svg").is_some());
+    assert!(plan != default && picture(&mut window, "app-space-plan.svg").is_some());
 }
 
 #[test]
@@ -219,11 +219,11 @@ fn hints_and_legend_are_those_of_the_view() {
 #[test]
 fn heights_and_light_are_numbers() {
     let mut window = hills();
-    let usual = sight(&window).camera.exaggeration();
-    send(&mut window, Command::from(ViewCommand::Space(SpaceCommand::Exaggerate(Some(3.0 * usual)))));
-    assert!((sight(&window).camera.exaggeration() / usual - 3.0).abs() < 1e-9);
+    let default = sight(&window).camera.exaggeration();
+    send(&mut window, Command::from(ViewCommand::Space(SpaceCommand::Exaggerate(Some(3.0 * default)))));
+    assert!((sight(&window).camera.exaggeration() / default - 3.0).abs() < 1e-9);
     send(&mut window, Command::from(ViewCommand::Space(SpaceCommand::Exaggerate(None))));
-    assert_eq!(sight(&window).camera.exaggeration(), usual);
+    assert_eq!(sight(&window).camera.exaggeration(), default);
     open_popup(&mut window, "View options");
     let fields = ["Heights ×", "Look to", "From above", "Light from", "Light above"];
     for (name, typed) in fields.into_iter().zip(["12", "40", "35", "100", "20"]) {

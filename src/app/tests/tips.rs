@@ -99,7 +99,7 @@ fn every_control_of_the_panels_has_a_sentence() {
     let corridor = LayerKind::corridor(Shapes::new(line, true).unwrap(), 1.0, &transfer, 0.2);
     let (formula, risk) = (LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)));
     let [straits, feature_size] = [LayerKind::straits(&transfer), LayerKind::feature_size(&transfer)];
-    let depths = [DepthRule::Nothing, DepthRule::USUAL_WAVELENGTH, SLOPE, COURANT].map(|rule| {
+    let depths = [DepthRule::Nothing, DepthRule::DEFAULT_WAVELENGTH, SLOPE, COURANT].map(|rule| {
         let sizes = DepthSizes { positive: PositiveDepth::Up, offset: 0.0, between: [0.0, 9.0], rule };
         Depths::new(raster(), sizes).into()
     });

@@ -57,11 +57,11 @@ impl Space {
 
     /// Returns the factor for heights: the one that a person chose, or one that makes relief visible.
     pub fn factor(&self, lattice: &Lattice) -> f64 {
-        self.exaggeration.unwrap_or_else(|| self.usual_factor(lattice))
+        self.exaggeration.unwrap_or_else(|| self.default_factor(lattice))
     }
 
     /// Returns the factor that makes relief visible.
-    pub fn usual_factor(&self, lattice: &Lattice) -> f64 {
+    pub fn default_factor(&self, lattice: &Lattice) -> f64 {
         let relief = self.extent.map_or(0.0, |(scale, [low, high])| scale.step() * f64::from(high - low));
         SpaceCamera::visible_exaggeration(lattice.bounds(), relief) / self.ground
     }

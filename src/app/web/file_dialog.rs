@@ -10,7 +10,7 @@ use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::HtmlInputElement;
 
 use super::files::{keep, main_file};
-use crate::app::dialogs::{Answer, Question};
+use crate::app::dialogs::{SystemAnswer, SystemQuestion};
 use crate::app::jobs::{Job, Jobs, Output};
 use crate::app::kit::FileRequest;
 
@@ -22,20 +22,20 @@ pub fn has_dialog(request: FileRequest) -> bool {
 /// Asks for files. Several may be chosen, so that a recipe comes with its rasters; the answer is the first
 /// one that fits the question. Where the browser shows no dialog, the one in the window lists the files of
 /// the page.
-pub fn ask(question: Question, jobs: &Jobs) -> Job<(Question, Answer)> {
+pub fn ask(question: SystemQuestion, jobs: &Jobs) -> Job<(SystemQuestion, SystemAnswer)> {
     let (job, output) = jobs.expect();
     // One of the events comes, and takes it.
     let asked = Rc::new(RefCell::new(Some((question, output))));
     if open(&asked).is_err() {
-        answer(&asked, Answer::NoDialog);
+        answer(&asked, SystemAnswer::NoDialog);
     }
     job
 }
 
 /// A question that was not answered yet.
-type OpenQuestion = Rc<RefCell<Option<(Question, Output<(Question, Answer)>)>>>;
+type OpenQuestion = Rc<RefCell<Option<(SystemQuestion, Output<(SystemQuestion, SystemAnswer)>)>>>;
 
-fn answer(asked: &OpenQuestion, answer: Answer) {
+fn answer(asked: &OpenQuestion, answer: SystemAnswer) {
     if let Some((question, output)) = asked.take() {
         output.send((question, answer));
     }
@@ -52,10 +52,10 @@ fn open(asked: &OpenQuestion) -> Result<(), JsValue> {
             let names = kept_files(&chosen).await.unwrap_or_default();
             let request = of_change.borrow().as_ref().map(|(question, _)| question.request);
             let file = request.and_then(|request| main_file(&names, request));
-            answer(&of_change, file.map_or(Answer::Cancelled, Answer::Chosen));
+            answer(&of_change, file.map_or(SystemAnswer::Cancelled, SystemAnswer::Chosen));
         });
     });
-    let on_cancel = Closure::once_into_js(move || answer(&of_cancel, Answer::Cancelled));
+    let on_cancel = Closure::once_into_js(move || answer(&of_cancel, SystemAnswer::Cancelled));
     input.add_event_listener_with_callback("change", on_change.unchecked_ref())?;
     input.add_event_listener_with_callback("cancel", on_cancel.unchecked_ref())?;
     input.click();

@@ -14,7 +14,7 @@ use wasm_bindgen_futures::spawn_local;
 
 use crate::app::clock::{Duration, Instant};
 use crate::app::command::Command;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use crate::app::kit::EditRecorder;
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
@@ -105,7 +105,7 @@ impl JournalKeeper {
     }
 
     /// Takes the answer about the work of an earlier tab, and returns the command to run now.
-    pub fn answer(&mut self, answer: Answer) -> Option<Command> {
+    pub fn answer(&mut self, answer: ConfirmAnswer) -> Option<Command> {
         let (command, forgotten) = recovery::take_answer(&mut self.offered, answer);
         forget_of(forgotten.map(|left| left.tab));
         command
@@ -170,7 +170,7 @@ impl JournalKeeper {
             }
             Err(_) => Progress::Done,
         };
-        let job = self.jobs.start_in_slices(Kind::Write, || Some(ProjectPacking::new(packed)), pack);
+        let job = self.jobs.start_in_slices(JobKind::Write, || Some(ProjectPacking::new(packed)), pack);
         self.packing = Some((job, project.path().map(|path| path.to_string_lossy().into_owned())));
     }
 

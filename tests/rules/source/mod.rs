@@ -45,6 +45,13 @@ pub struct Function {
     pub lines: RangeInclusive<usize>,
 }
 
+/// A struct, enum, union, trait or type alias of a module.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TypeInCode {
+    pub name: String,
+    pub line: usize,
+}
+
 /// A source file without comments, strings and tests.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
@@ -198,6 +205,25 @@ impl SourceFile {
     pub fn functions(&self) -> Vec<Function> {
         let named = (0..self.tokens.len()).filter(|&at| self.text(at) == "fn" && is_name(self.text(at + 1)));
         named.filter_map(|at| self.function(at)).collect()
+    }
+
+    /// Returns the types that modules declare: neither associated types nor those inside functions.
+    pub fn types(&self) -> Vec<TypeInCode> {
+        let mut types = Vec::new();
+        let mut at = 0;
+        while at < self.tokens.len() {
+            match self.text(at) {
+                "struct" | "enum" | "union" | "trait" | "type" if is_name(self.text(at + 1)) => {
+                    let Token { line, text } = self.tokens[at + 1].clone();
+                    types.push(TypeInCode { name: text, line });
+                }
+                // What is in a module inside the file belongs to the file.
+                "{" if at < 2 || self.text(at - 2) != "mod" => at = end_of_group(&self.tokens, at),
+                _ => {}
+            }
+            at += 1;
+        }
+        types
     }
 
     fn function(&self, at: usize) -> Option<Function> {

@@ -10,7 +10,7 @@ use meshbrush_io::io::layers::{SavedKind, SavedLayer};
 use meshbrush_mesh::text::Length;
 
 /// Growth of the target diameter by unit of distance, unless an option says otherwise.
-const USUAL_SLOPE: f64 = 0.2;
+const DEFAULT_SLOPE: f64 = 0.2;
 
 /// What distances are measured to, and how the target diameter grows with them.
 #[derive(Debug, Args)]
@@ -68,7 +68,7 @@ impl DistanceArguments {
                     "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
                 Failure::Usage(format!("{option}: {problem}."))
             })?);
-            layer.slope = Some(self.distance_slope.unwrap_or(USUAL_SLOPE));
+            layer.slope = Some(self.distance_slope.unwrap_or(DEFAULT_SLOPE));
             layer.range = self.distance_range.as_ref().map(|length| length.value);
         }
         Ok(layers)

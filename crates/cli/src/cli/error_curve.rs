@@ -80,7 +80,7 @@ pub fn write_error_curve(
         ));
     };
     let here = CurvePoint { triangles: finished.mesh().triangles().count(), error: fit.error(norm) };
-    let most = CurveTracing::USUAL_MOST.max(BEYOND * here.triangles);
+    let most = CurveTracing::DEFAULT_MOST.max(BEYOND * here.triangles);
     let start = Instant::now();
     let curves = finished.error_curves(norm, most, |triangles| {
         terminal.progress(start, || format!("error curve, {} triangles", Grouped(triangles)));

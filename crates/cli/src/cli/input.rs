@@ -20,7 +20,7 @@ use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::geojson::{self, Outline};
 use meshbrush_io::io::layers::SavedLayer;
 use meshbrush_io::io::recipe::{self, Loaded, Loading, Recipe};
-use meshbrush_io::io::settings::{SavedSettings, SavedTreatment, Usual};
+use meshbrush_io::io::settings::{LoadingDefaults, SavedSettings, SavedTreatment};
 use meshbrush_io::io::shape_format;
 use meshbrush_io::io::shapes::{self, ShapeFile};
 use meshbrush_io::io::{Meter, ReadError, project};
@@ -29,7 +29,7 @@ use meshbrush_mesh::mesh::{CoarseError, Limits, MemoryLimit, bisection_edge_leng
 use meshbrush_mesh::text::LengthUnit;
 
 /// Most triangles unless `--max-triangles` or a file says otherwise.
-const USUAL_BUDGET: usize = 50_000_000;
+const DEFAULT_BUDGET: usize = 50_000_000;
 
 /// The file of domain and layers, if there is one, and the settings in the text.
 #[derive(Debug)]
@@ -174,11 +174,11 @@ impl Input {
 
     fn read_files(&self, terminal: &mut Terminal) -> Result<Loaded, Failure> {
         let meter = &Meter::default();
-        let most_coarse = self.settings.mesh.max_triangles.unwrap_or(USUAL_BUDGET);
+        let most_coarse = self.settings.mesh.max_triangles.unwrap_or(DEFAULT_BUDGET);
         // Without a memory budget, the mesh may take what its triangles take.
-        let usual = Usual { most_coarse, max_triangles: USUAL_BUDGET, max_memory: usize::MAX };
+        let defaults = LoadingDefaults { most_coarse, max_triangles: DEFAULT_BUDGET, max_memory: usize::MAX };
         let loading =
-            Loading { usual, with_hidden: false, read_outline, read_land, ..Loading::for_document(meter) };
+            Loading { defaults, with_hidden: false, read_outline, read_land, ..Loading::for_document(meter) };
         Ok(terminal.while_metered("reading", meter, || self.settings.load_files("", &loading))?)
     }
 }

@@ -14,7 +14,7 @@ use meshbrush_io::io::settings::{
     METRES, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOpenings, SavedParts, SavedSettings,
     SavedTreatment,
 };
-use meshbrush_io::io::{KeyFault, Step};
+use meshbrush_io::io::{KeyFault, KeyStep};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Length, LengthUnit};
 
@@ -204,24 +204,26 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
     };
     let length = |option: &str, value: Option<&Length>| with(option, value.map(Length::to_string));
     let option = match &fault.path[..] {
-        [Step::Key(table), Step::Index(layer), Step::Key(key), ..] if table == "layer" => match &**key {
-            "at_zero" => length(
-                "--distance-at-zero",
-                typed.distances.distance_at_zero.as_ref().or(typed.h_min.as_ref()),
-            ),
-            "slope" => {
-                with("--distance-slope", typed.distances.distance_slope.map(|slope| slope.to_string()))
+        [KeyStep::Key(table), KeyStep::Index(layer), KeyStep::Key(key), ..] if table == "layer" => {
+            match &**key {
+                "at_zero" => length(
+                    "--distance-at-zero",
+                    typed.distances.distance_at_zero.as_ref().or(typed.h_min.as_ref()),
+                ),
+                "slope" => {
+                    with("--distance-slope", typed.distances.distance_slope.map(|slope| slope.to_string()))
+                }
+                "range" => length("--distance-range", typed.distances.distance_range.as_ref()),
+                "width_to" if layers[*layer].1.kind == SavedKind::Straits => {
+                    length("--widest-strait", typed.water.widest_strait.as_ref())
+                }
+                "within" => with("--max-error", typed.surfaces.max_error.map(|error| error.to_string())),
+                "at_most" => with("--at-most", typed.surfaces.at_most.map(|count| count.to_string())),
+                "width_to" => length("--widest-feature", typed.water.widest_feature.as_ref()),
+                _ => layers[*layer].0.clone(),
             }
-            "range" => length("--distance-range", typed.distances.distance_range.as_ref()),
-            "width_to" if layers[*layer].1.kind == SavedKind::Straits => {
-                length("--widest-strait", typed.water.widest_strait.as_ref())
-            }
-            "within" => with("--max-error", typed.surfaces.max_error.map(|error| error.to_string())),
-            "at_most" => with("--at-most", typed.surfaces.at_most.map(|count| count.to_string())),
-            "width_to" => length("--widest-feature", typed.water.widest_feature.as_ref()),
-            _ => layers[*layer].0.clone(),
-        },
-        [_, Step::Key(key), ..] => match &**key {
+        }
+        [_, KeyStep::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
             "bounds" if typed.earth.bounds.is_some() => "--bounds".to_owned(),
             "land" => "--land".to_owned(),

@@ -256,13 +256,13 @@ fn cost(typed: &PathArguments, formula: Option<CostFormula>, saved: &PathCost) -
     if typed.length_weight.is_none() && typed.risk_weight.is_none() {
         return saved.clone();
     }
-    let usual = match saved {
+    let default = match saved {
         PathCost::Weighted(weights) => *weights,
         PathCost::Formula(_) => Weights::default(),
     };
     PathCost::Weighted(Weights {
-        length: typed.length_weight.unwrap_or(usual.length),
-        risk: typed.risk_weight.unwrap_or(usual.risk),
+        length: typed.length_weight.unwrap_or(default.length),
+        risk: typed.risk_weight.unwrap_or(default.risk),
     })
 }
 

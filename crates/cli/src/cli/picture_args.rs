@@ -2,9 +2,9 @@
 
 use clap::Args;
 
-/// The usual width of a picture, in pixels.
+/// The default width of a picture, in pixels.
 pub const PICTURE_SIZE: &str = "1600";
-/// The usual colours of the levels.
+/// The default colours of the levels.
 pub const PICTURE_COLORMAP: &str = "viridis";
 
 impl PictureArguments {

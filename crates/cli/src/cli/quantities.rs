@@ -9,7 +9,7 @@ use meshbrush_io::io::NodeValues;
 use meshbrush_mesh::mesh::Extract;
 
 /// The name of a value that is given without one.
-const USUAL_NAME: &str = "quantity";
+const DEFAULT_NAME: &str = "quantity";
 /// Names that files use for other data.
 const TAKEN: [&str; 3] = ["target_diameter", "boundary", "level"];
 
@@ -61,7 +61,7 @@ fn split(text: &str) -> (&str, &str) {
     {
         return (name.trim(), expression);
     }
-    (USUAL_NAME, text)
+    (DEFAULT_NAME, text)
 }
 
 /// Letters, digits and underscores, not beginning with a digit: what all formats can hold.
@@ -82,7 +82,7 @@ impl NamedQuantity {
             if value.is_finite() {
                 return Ok(value);
             }
-            let called = if name == USUAL_NAME { "quantity".into() } else { format!("quantity {name}") };
+            let called = if name == DEFAULT_NAME { "quantity".into() } else { format!("quantity {name}") };
             Err(Failure::Work(format!(
                 "The {called} is {value} at x = {}, y = {}: files need a finite number at every node.",
                 p.x, p.y

@@ -105,8 +105,8 @@ impl RequestedSpace {
             true => Ok(number),
             false => Err(BadNumber(name, format!("{} is not {rule}", Number(number)))),
         };
-        let usual = ViewDirection::default();
-        let [azimuth, altitude] = [azimuth.unwrap_or(usual.azimuth), altitude.unwrap_or(usual.altitude)];
+        let default = ViewDirection::default();
+        let [azimuth, altitude] = [azimuth.unwrap_or(default.azimuth), altitude.unwrap_or(default.altitude)];
         let azimuth = checked("azimuth", azimuth, azimuth.is_finite(), "an angle in degrees")?;
         let is_high = (5.0..=90.0).contains(&altitude);
         let altitude = checked("altitude", altitude, is_high, "an angle from 5 to 90 degrees")?;

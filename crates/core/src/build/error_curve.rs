@@ -88,7 +88,7 @@ impl MeshSpec {
 
 impl CurveTracing {
     /// Most triangles of a curve for a person who waits for it.
-    pub const USUAL_MOST: usize = 1 << 20;
+    pub const DEFAULT_MOST: usize = 1 << 20;
 
     /// Returns the work on the curves of a document by a norm, with meshes of about `most` triangles at most.
     /// `parts` must be those of the spec.

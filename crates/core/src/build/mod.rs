@@ -16,7 +16,7 @@
 //! let spec = MeshSpec {
 //!     lattice: Lattice::covering(domain.bounds, 0.05, 100_000)?,
 //!     domain,
-//!     boundary: BoundaryTreatment::usual(0.05),
+//!     boundary: BoundaryTreatment::default_for(0.05),
 //!     field: SizeFieldSpec {
 //!         layers: Layer::stack([LayerKind::target(formula)]),
 //!         transfer: Transfer::between(0.01, 1.0),

@@ -39,7 +39,7 @@ pub struct Background {
 
 impl Background {
     /// The opacity of a new one.
-    pub const USUAL_OPACITY: f64 = 0.5;
+    pub const DEFAULT_OPACITY: f64 = 0.5;
 }
 
 impl PartialEq for Background {

@@ -197,9 +197,9 @@ fn diamond() -> Settings {
         name: Example::Diamond.name().into(),
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
-        boundary: BoundaryTreatment::usual(1.0),
+        boundary: BoundaryTreatment::default_for(1.0),
         transfer: Transfer::between(0.02, 20.0),
-        layers: Layer::usual(LayerKind::target(formula)),
+        layers: Layer::default_stack(LayerKind::target(formula)),
         rule: RefinementRule::Vertex,
         ..Settings::default()
     }
@@ -224,9 +224,9 @@ fn path() -> Settings {
         unit: LengthUnit::Kilometre,
         domain: Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(100.0, 100.0))),
         spacing: 2.0,
-        boundary: BoundaryTreatment::usual(2.0),
+        boundary: BoundaryTreatment::default_for(2.0),
         transfer: Transfer::between(0.5, 2.9),
-        layers: Layer::usual(risk),
+        layers: Layer::default_stack(risk),
         paths: Arc::new(PathPlan { routes, ..PathPlan::default() }),
         ..Settings::default()
     }
@@ -245,9 +245,9 @@ fn terrain(slope: Raster) -> Settings {
         unit: LengthUnit::Kilometre,
         domain: Domain::rectangle(bounds),
         spacing: bounds.size().max_element() / 24.0,
-        boundary: BoundaryTreatment::usual(bounds.size().max_element() / 24.0),
+        boundary: BoundaryTreatment::default_for(bounds.size().max_element() / 24.0),
         transfer: Transfer { shape: 1.6, ..Transfer::between(0.05, 2.0) },
-        layers: Layer::usual(slope_as_risk),
+        layers: Layer::default_stack(slope_as_risk),
         ..Settings::default()
     }
 }
@@ -269,7 +269,7 @@ fn heights(heights: Raster) -> Settings {
         ..Settings::default()
     };
     let settings = settings.with_nodes_on_samples(&surface);
-    let mut layers = Layer::usual(surface);
+    let mut layers = Layer::default_stack(surface);
     if let Some(heights) = layers.iter_mut().find(|layer| layer.kind.is::<Surface>()) {
         heights.name = "Heights".into();
     }

@@ -49,7 +49,7 @@ mod tests {
     use crate::layers::{Combine, DistanceLayer, DistanceTo, LayerId, LayerKind, Mask, Quantity, Threats};
 
     fn title(edit: impl FnOnce(&mut Vec<Layer>)) -> &'static str {
-        let before = Layer::usual(LayerKind::constant(0.2));
+        let before = Layer::default_stack(LayerKind::constant(0.2));
         let mut after = before.clone();
         edit(&mut after);
         layers_title(&before, &after)

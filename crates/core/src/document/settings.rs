@@ -290,7 +290,7 @@ impl Settings {
     }
 
     /// The gradation of meshes for most solvers: neighbouring triangles differ little in size.
-    pub const USUAL_GRADATION: f64 = 0.3;
+    pub const DEFAULT_GRADATION: f64 = 0.3;
 
     /// Returns the description of the size field, without the paint.
     pub fn field_spec(&self) -> SizeFieldSpec {
@@ -386,13 +386,13 @@ impl Settings {
 
     /// Returns the default settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {
-        let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
-        let Transfer { h_min, h_risk, h_max, shape } = usual.transfer;
-        let spacing = usual.spacing * extent;
+        let (default, extent) = (Self::default(), domain.bounds.size().max_element());
+        let Transfer { h_min, h_risk, h_max, shape } = default.transfer;
+        let spacing = default.spacing * extent;
         Self {
             name,
             spacing,
-            boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
+            boundary: BoundaryTreatment::default_for(domain.longest_on_earth(spacing)),
             domain,
             transfer: Transfer {
                 h_min: h_min * extent,
@@ -400,8 +400,8 @@ impl Settings {
                 h_max: h_max * extent,
                 shape,
             },
-            layers: Layer::usual(LayerKind::constant(h_max * extent)),
-            ..usual
+            layers: Layer::default_stack(LayerKind::constant(h_max * extent)),
+            ..default
         }
     }
 }
@@ -415,13 +415,13 @@ impl Default for Settings {
             background: None,
             domain: Domain::rectangle(Rect::UNIT),
             spacing: 1.0 / 24.0,
-            boundary: BoundaryTreatment::usual(1.0 / 24.0),
+            boundary: BoundaryTreatment::default_for(1.0 / 24.0),
             cleaning: Cleaning::FOR_SOLVERS,
             boundary_marks: Arc::default(),
             pins: Arc::default(),
             paths: Arc::default(),
             transfer: Transfer::between(0.0024, 0.2),
-            layers: Layer::usual(LayerKind::constant(0.2)),
+            layers: Layer::default_stack(LayerKind::constant(0.2)),
             gradation: None,
             rule: RefinementRule::Area,
             max_triangles: Self::MAX_TRIANGLES,

@@ -41,7 +41,7 @@ impl Settings {
         let raster = surface.source.raster().map(|source| source.raster.raster());
         match raster.and_then(|raster| domain_on_samples(raster, None)) {
             Some((bounds, spacing)) => {
-                let boundary = BoundaryTreatment::usual(self.domain.longest_on_earth(spacing));
+                let boundary = BoundaryTreatment::default_for(self.domain.longest_on_earth(spacing));
                 Self { domain: self.domain.with_bounds(bounds), spacing, boundary, ..self }
             }
             None => self,

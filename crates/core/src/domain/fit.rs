@@ -51,12 +51,12 @@ impl BoundaryTreatment {
 
     /// Returns the default treatment: nodes on the outline, and a diameter that is quick to mesh and shows
     /// the shape.
-    pub fn usual(spacing: f64) -> Self {
-        Self::OnOutline { diameter: Self::usual_diameter(spacing) }
+    pub fn default_for(spacing: f64) -> Self {
+        Self::OnOutline { diameter: Self::default_diameter(spacing) }
     }
 
     /// Returns the diameter of level 7: an eighth of the spacing δ̄. Both are in world units.
-    pub fn usual_diameter(spacing: f64) -> f64 {
+    pub fn default_diameter(spacing: f64) -> f64 {
         bisection_edge_length(spacing, 7)
     }
 }

@@ -92,8 +92,8 @@ impl ProjParameters {
     }
 
     /// Returns a number within limits.
-    fn within(&self, key: &str, usual: f64, most: f64) -> Result<f64, String> {
-        let number = self.get(key).unwrap_or(usual);
+    fn within(&self, key: &str, default: f64, most: f64) -> Result<f64, String> {
+        let number = self.get(key).unwrap_or(default);
         if number.abs() <= most { Ok(number) } else { Err(format!("{key} is from {} to {most}", -most)) }
     }
 

@@ -3,7 +3,7 @@
 mod bounds;
 mod contours;
 pub mod formula;
-mod quadratic;
+mod taylor_model;
 mod target;
 mod transfer;
 mod vertex_rule;
@@ -11,7 +11,7 @@ mod vertex_rule;
 pub use bounds::Bounds;
 pub use contours::{Contour, contours};
 pub use formula::{CostFormula, Formula};
-pub(crate) use quadratic::Quadratic;
 pub use target::{RefinementRule, checked_target, f32_not_below};
+pub(crate) use taylor_model::TaylorModel;
 pub use transfer::{RiskToDiameter, Transfer, TransferError, TransferTable};
 pub use vertex_rule::VertexRule;

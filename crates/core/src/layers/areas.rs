@@ -5,7 +5,7 @@ use super::engine::asked::Share;
 use super::engine::cells::Cells;
 use super::engine::counting::Counting;
 use super::extent::joined;
-use super::paint_reach::Repainted;
+use super::paint_reach::RepaintedField;
 use super::reach::Reach;
 use super::{Combine, Layer, LayerId, PaintLayers, Quantity, SettledSquares, SizeField};
 use crate::geometry::{LatticeRect, Rect};
@@ -152,9 +152,8 @@ impl SizeField {
             let cells = match self.stack.slope() {
                 _ if least >= self.longest() => Vec::new(),
                 None => self.parts_above(core, least, (others, paint)),
-                Some(slope) => {
-                    Repainted { field: self, paint, slope, cores: &cores, others, known }.reach(core, least)
-                }
+                Some(slope) => RepaintedField { field: self, paint, slope, cores: &cores, others, known }
+                    .reach(core, least),
             };
             areas.extend(self.changed_areas(cells, (core, least), change));
         }

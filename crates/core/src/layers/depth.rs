@@ -103,7 +103,7 @@ pub struct DepthError {
 
 impl DepthRule {
     /// Thirty triangles in the length of the semidiurnal lunar tide (M2).
-    pub const USUAL_WAVELENGTH: Self = Self::Wavelength { period: 44_712.0, triangles: 30.0 };
+    pub const DEFAULT_WAVELENGTH: Self = Self::Wavelength { period: 44_712.0, triangles: 30.0 };
 
     /// Returns the factor of the diameters in a layer that is combined in this way.
     ///

@@ -131,10 +131,10 @@ fn pieces(a: DVec2, b: DVec2, area: &Mask) -> Vec<DVec2> {
 
 /// Shapes with an index, to measure the distance to them. Clones share their data.
 #[derive(Clone, Debug)]
-pub struct Shapes(Arc<Indexed>);
+pub struct Shapes(Arc<IndexedShapes>);
 
 #[derive(Debug)]
-struct Indexed {
+struct IndexedShapes {
     list: ShapeList,
     segments: Vec<[DVec2; 2]>,
     tree: BoxTree,
@@ -164,7 +164,9 @@ pub enum ShapesError {
 
 impl PartialEq for Shapes {
     fn eq(&self, other: &Self) -> bool {
-        let same = |a: &Indexed, b: &Indexed| a.filled.is_some() == b.filled.is_some() && a.list == b.list;
+        let same = |a: &IndexedShapes, b: &IndexedShapes| {
+            a.filled.is_some() == b.filled.is_some() && a.list == b.list
+        };
         Arc::ptr_eq(&self.0, &other.0) || same(&self.0, &other.0)
     }
 }
@@ -192,7 +194,7 @@ impl Shapes {
             Err(RegionError::NoArea) => None,
             mask => Some(mask?),
         };
-        Ok(Self(Arc::new(Indexed { list, segments, tree, filled })))
+        Ok(Self(Arc::new(IndexedShapes { list, segments, tree, filled })))
     }
 
     /// Returns the outline of a region: the distance is that to its boundary, on both sides.
@@ -227,7 +229,7 @@ impl Shapes {
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { list, segments, tree, filled } = &*self.0;
+        let IndexedShapes { list, segments, tree, filled } = &*self.0;
         let filled = filled.as_ref().map_or(0, |mask| mask.shared_data().1);
         (Arc::as_ptr(&self.0).addr(), list.bytes() + size_of_val(&**segments) + tree.bytes() + filled)
     }

@@ -1,7 +1,7 @@
-//! The feature size of a coast: how wide the water is.
+//! The local feature size of a coast: how wide the water is.
 //!
-//! W(x) is the distance from x to the shore and from there on to the middle of the water: along a channel it
-//! is half of its width, whatever the place in it. A triangle is at most 2 W / R large, so that R of them are
+//! W(x) is the distance from x to the shore plus that from x to the medial axis of the water: along a channel
+//! it is half of its width, wherever x is in it. A triangle is at most 2 W / R large, so that R of them are
 //! across the channel.
 //!
 //! ```text
@@ -11,13 +11,14 @@
 //!   ── ─ ─ ─ ─┼─ ─ ─ ─ ─ ─ middle
 //! ```
 //!
-//! The middle is that of straits ([`StraitDiscs`]): the centres of discs that touch two coasts, or two parts
-//! of one that are far apart along it. So a corner of a coast or a shallow bay has none, unlike in a raster
-//! of distances, where each bend of the shore has a branch. Centres are at most an eighth of their radius
-//! from the nearest point of the middle; so much is left out of the distance to them, and W is at most what
-//! it is with all points of the middle, and less by at most a quarter of the radius.
+//! The medial axis is that of straits ([`StraitDiscs`]): the centres of discs that touch two coasts, or two
+//! parts of one that are far apart along it. So a corner of a coast or a shallow bay has no branch, unlike
+//! the medial axis of a raster of distances, which has one for each bend of the shore. Points of the medial
+//! axis are at most an eighth of the radius from the nearest centre; that much is subtracted from the
+//! distance to the centres. So W is at most what it is with all points of the medial axis, and less by at
+//! most a quarter of the radius.
 //!
-//! W changes by at most twice the way: both distances do by at most the way.
+//! W is Lipschitz continuous with constant 2, since both distances are with constant 1.
 
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ use crate::geometry::{BoxTree, Rect};
 /// The share of the radius of a disc within which the distance to the middle is 0.
 const MIDDLE: f64 = 0.125;
 
-/// So many triangles across the water.
+/// A number of triangles across the water.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureSize {
     /// Triangles across a channel.
@@ -79,12 +80,12 @@ impl FeatureSize {
     }
 }
 
-/// The shores of a domain and the middle of its water, with an index. Clones share the data.
+/// The shores of a domain and the medial axis of its water, with an index. Clones share the data.
 #[derive(Clone, Debug)]
-pub struct WaterMiddle(Arc<Indexed>);
+pub struct WaterMiddle(Arc<IndexedFeatureSize>);
 
 #[derive(Debug)]
-struct Indexed {
+struct IndexedFeatureSize {
     discs: StraitDiscs,
     shores: Option<Shapes>,
     /// The discs around the centres in which the distance to the middle is 0.
@@ -109,15 +110,15 @@ impl WaterMiddle {
     fn new(discs: StraitDiscs, shores: Option<Shapes>) -> Self {
         let boxes: Vec<Rect> =
             discs.discs().iter().map(|disc| Rect::around(disc.center, rim(disc))).collect();
-        Self(Arc::new(Indexed { discs, shores, tree: BoxTree::new(&boxes) }))
+        Self(Arc::new(IndexedFeatureSize { discs, shores, tree: BoxTree::new(&boxes) }))
     }
 
-    /// Returns a middle that was not looked for yet: there is none.
+    /// Returns a medial axis that was not searched for yet: it is empty.
     pub fn unknown(between: [f64; 2]) -> Self {
         Self::new(StraitDiscs::unknown(between), None)
     }
 
-    /// Returns the least and the greatest width that are looked for, in world units, or in metres on the
+    /// Returns the minimum and the maximum width that are searched for, in world units, or in metres on the
     /// Earth.
     pub fn between(&self) -> [f64; 2] {
         self.0.discs.between()
@@ -130,7 +131,7 @@ impl WaterMiddle {
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { discs, shores, tree } = &*self.0;
+        let IndexedFeatureSize { discs, shores, tree } = &*self.0;
         let shores = shores.as_ref().map_or(0, |shores| shores.shared_data().1);
         (Arc::as_ptr(&self.0).addr(), discs.shared_data().1 + shores + tree.bytes())
     }

@@ -24,7 +24,7 @@ pub struct Layer {
 
 impl Layer {
     /// Returns the layers of a new document: `base`, and paint of both kinds over it.
-    pub fn usual(base: LayerKind) -> Vec<Self> {
+    pub fn default_stack(base: LayerKind) -> Vec<Self> {
         let paint = [Quantity::Diameter, Quantity::Risk].map(LayerKind::paint);
         let mut layers = Self::stack([base].into_iter().chain(paint));
         layers[0].name = "Base".into();

@@ -13,10 +13,10 @@ use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 ///
 /// The polygons may overlap: a point counts if one of them covers it. Clones share their data.
 #[derive(Clone, Debug)]
-pub struct Mask(Arc<Indexed>);
+pub struct Mask(Arc<IndexedMask>);
 
 #[derive(Debug)]
-struct Indexed {
+struct IndexedMask {
     region: Arc<Region>,
     /// The edges of the region, of which no two cross.
     edges: Vec<[DVec2; 2]>,
@@ -71,7 +71,7 @@ impl Mask {
         let edges: Vec<[DVec2; 2]> = region.edges().collect();
         let boxes: Vec<Rect> = edges.iter().map(|&[a, b]| Rect::spanning(a, b)).collect();
         let tree = BoxTree::new(&boxes);
-        Ok(Self(Arc::new(Indexed { region: region.clone(), edges, tree })))
+        Ok(Self(Arc::new(IndexedMask { region: region.clone(), edges, tree })))
     }
 
     /// Returns the mask of a shape drawn by hand.
@@ -119,7 +119,7 @@ impl Mask {
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { region, edges, tree } = &*self.0;
+        let IndexedMask { region, edges, tree } = &*self.0;
         (Arc::as_ptr(&self.0).addr(), region.bytes() + size_of_val(&**edges) + tree.bytes())
     }
 

@@ -44,7 +44,7 @@ mod terms;
 mod threat_models;
 mod threat_series;
 mod threats;
-mod usual;
+mod defaults;
 
 pub use areas::PaintChange;
 pub use check::{InvalidLayer, LayerCheck};
@@ -64,7 +64,7 @@ pub use kinds::{
 pub use layer::Layer;
 pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
-pub(crate) use models::ModelPlace;
+pub(crate) use models::ModelDomain;
 pub use node_depths::{DepthFit, NoDepth, NodeDepths};
 pub use paint_layers::PaintLayers;
 pub use raster_source::RasterSource;

@@ -1,11 +1,11 @@
 use glam::{DVec2, dvec2};
 
-use super::models::{MADE, ModelPlace};
+use super::models::{MADE, ModelDomain};
 use super::{
     Combine, Layer, LayerKind, Mask, PaintLayers, SettledSquares, SizeField, SizeFieldSpec, Threat,
     ThreatLaw, Threats,
 };
-use crate::field::{Formula, Quadratic, Transfer};
+use crate::field::{Formula, TaylorModel, Transfer};
 use crate::geometry::{Lattice, LatticePoint, Rect};
 use crate::mesh::bisection_edge_length;
 
@@ -19,17 +19,17 @@ fn threats(random: &mut fastrand::Rng, count: usize, ranges: &[f64]) -> Threats 
     Threats::new((0..count).map(|_| threat()).collect()).unwrap()
 }
 
-fn place(middle: DVec2, half: DVec2) -> ModelPlace {
+fn place(middle: DVec2, half: DVec2) -> ModelDomain {
     let rest = f64::EPSILON * (middle.abs() + half);
     let coordinates =
-        [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]));
-    ModelPlace { coordinates, middle, half, rest }
+        [0, 1].map(|axis: usize| TaylorModel::coordinate(axis, middle[axis], half[axis], rest[axis]));
+    ModelDomain { coordinates, middle, half, rest }
 }
 
 #[test]
 fn the_rectangle_of_a_place_is_hardly_larger() {
     let rectangle = Rect::new(dvec2(3.0, -2.0), dvec2(3.5, -1.0));
-    let rect = ModelPlace::of_rectangle(&rectangle).rect();
+    let rect = ModelDomain::of_rectangle(&rectangle).rect();
     assert!(rect.contains(rectangle.min) && rect.contains(rectangle.max));
     assert!((rect.size() - rectangle.size()).max_element() < 1e-9);
 }
@@ -85,7 +85,7 @@ fn the_risk_of_one_threat_lies_within_its_model() {
         // Of one threat, however large the place, no bound is beyond the peak.
         let bounds = model.bounds().intersection(bounded.bounds);
         assert!(bounds.greatest <= peak + 1e-12, "{law:?} {peak} {bounds:?}");
-        narrow += usize::from(model.rest() < 1e-3 * peak);
+        narrow += usize::from(model.remainder() < 1e-3 * peak);
         for n in 0..8 {
             let corner = 2.0 * dvec2(f64::from(n & 1), f64::from(n >> 1 & 1)) - 1.0;
             let share = if n < 4 { corner } else { 2.0 * dvec2(random.f64(), random.f64()) - 1.0 };

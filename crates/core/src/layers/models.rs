@@ -1,4 +1,4 @@
-//! Bounds of functions over rectangles of lattice cells, from models that are kept.
+//! Bounds of functions over rectangles of lattice cells, from memoized Taylor models.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec2;
 
 use super::engine::cells::Cells;
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 use crate::geometry::{Lattice, Rect};
 
 /// A function on one lattice, to find its models again. No two functions have the same.
@@ -22,9 +22,9 @@ impl ModelId {
 }
 
 /// The part of the plane that a model is for, in world units.
-pub struct ModelPlace {
+pub struct ModelDomain {
     /// Models of x and y. They include what rounding changes in the coordinates of points.
-    pub coordinates: [Quadratic; 2],
+    pub coordinates: [TaylorModel; 2],
     /// The middle, and half of the sides.
     pub middle: DVec2,
     pub half: DVec2,
@@ -32,7 +32,7 @@ pub struct ModelPlace {
     pub rest: DVec2,
 }
 
-impl ModelPlace {
+impl ModelDomain {
     /// Returns the place of a rectangle with two sides.
     pub(crate) fn of_rectangle(rectangle: &Rect) -> Self {
         let (middle, half) = (rectangle.center(), 0.5 * rectangle.size());
@@ -59,21 +59,21 @@ impl ModelPlace {
 /// A model of a function over a place, with what else is known of its values there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundedModel {
-    pub polynomial: Quadratic,
+    pub polynomial: TaylorModel,
     /// Bounds of the values anywhere in the place.
     pub bounds: Bounds,
 }
 
 impl BoundedModel {
     /// Returns a model without other bounds.
-    pub const fn of(polynomial: Quadratic) -> Self {
+    pub const fn of(polynomial: TaylorModel) -> Self {
         Self { polynomial, bounds: Bounds::ANYTHING }
     }
 }
 
 /// A dyadic square of 2^bits cells along each side, and a rim around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Square {
+struct DyadicSquare {
     bits: u32,
     at: [i64; 2],
 }
@@ -97,16 +97,16 @@ const FAIR: f64 = 8.0;
 const KEPT_BITS: u32 = 9;
 
 #[derive(Clone, Copy)]
-struct Kept {
+struct CachedModel {
     function: ModelId,
-    square: Square,
+    square: DyadicSquare,
     model: BoundedModel,
 }
 
 thread_local! {
     /// The kept models, at the index from a hash of function and square. A model is the same whenever it is
     /// made, so an answer does not depend on which models are kept.
-    static KEPT: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
+    static KEPT: RefCell<Vec<CachedModel>> = const { RefCell::new(Vec::new()) };
 }
 
 #[cfg(test)]
@@ -133,7 +133,7 @@ pub fn bounds(
     function: ModelId,
     cells: &Cells,
     lattice: &Lattice,
-    model: impl Fn(&ModelPlace) -> BoundedModel,
+    model: impl Fn(&ModelDomain) -> BoundedModel,
     bounds: impl FnOnce(Bounds) -> Bounds,
 ) -> Bounds {
     let middle = [0, 1].map(|axis: usize| 0.5 * (cells.min[axis] + cells.max[axis]) as f64);
@@ -141,7 +141,7 @@ pub fn bounds(
     let side = (2.0 * half[0].max(half[1])).max(1.0) as u64;
     let extent = lattice.extent();
     let whole = extent.x.max(extent.y).next_power_of_two().ilog2();
-    let around = |bits: u32| Square { bits, at: middle.map(|v| v as i64 >> bits) };
+    let around = |bits: u32| DyadicSquare { bits, at: middle.map(|v| v as i64 >> bits) };
     let fits = |bits: &u32| around(*bits).part(middle, half).is_some();
     let Some(least_bits) = (side.ilog2()..=whole).find(fits) else {
         return bounds(Bounds::ANYTHING);
@@ -151,7 +151,7 @@ pub fn bounds(
         let (square, mut skipped) = (around(square_bits), 1);
         if let Some((center, half)) = square.part(middle, half) {
             let model = kept(function, square, || model(&square.place(lattice)));
-            let (found, rest) = (model.polynomial.bounds_over(center, half), model.polynomial.rest());
+            let (found, rest) = (model.polynomial.bounds_over(center, half), model.polynomial.remainder());
             let change = found.greatest - found.least - 2.0 * rest;
             let found = found.intersection(model.bounds);
             let is_least = square_bits == least_bits;
@@ -177,8 +177,8 @@ fn halvings(factor: f64) -> u32 {
     (exponent.saturating_sub(1023) / 3).max(1)
 }
 
-fn kept(function: ModelId, square: Square, model: impl FnOnce() -> BoundedModel) -> BoundedModel {
-    let Square { bits, at: [x, y] } = square;
+fn kept(function: ModelId, square: DyadicSquare, model: impl FnOnce() -> BoundedModel) -> BoundedModel {
+    let DyadicSquare { bits, at: [x, y] } = square;
     let key = function.0 << 54 ^ u64::from(bits) << 58 ^ (x as u64) << 29 ^ y as u64;
     let place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS)) as usize;
     let found = KEPT.with_borrow(|kept| kept.get(place).copied());
@@ -187,10 +187,10 @@ fn kept(function: ModelId, square: Square, model: impl FnOnce() -> BoundedModel)
     }
     #[cfg(test)]
     MADE.with(|made| made.set(made.get() + 1));
-    let new = Kept { function, square, model: model() };
+    let new = CachedModel { function, square, model: model() };
     KEPT.with_borrow_mut(|kept| {
         if kept.is_empty() {
-            let none = Kept { function: ModelId(u64::MAX), ..new };
+            let none = CachedModel { function: ModelId(u64::MAX), ..new };
             kept.resize(1 << KEPT_BITS, none);
         }
         kept[place] = new;
@@ -198,7 +198,7 @@ fn kept(function: ModelId, square: Square, model: impl FnOnce() -> BoundedModel)
     new.model
 }
 
-impl Square {
+impl DyadicSquare {
     /// Returns a rectangle, by its middle and half of its sides in cells, in the coordinates of a model of
     /// the square. `None` where it extends beyond the rim.
     fn part(&self, middle: [f64; 2], half: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
@@ -210,16 +210,16 @@ impl Square {
         fits.then(|| (from.map(|v| v / reach), half.map(|v| rounded_up(v / reach))))
     }
 
-    fn place(&self, lattice: &Lattice) -> ModelPlace {
+    fn place(&self, lattice: &Lattice) -> ModelDomain {
         let side = (1u64 << self.bits) as f64;
         let (origin, step) = (lattice.bounds().min, lattice.step());
         let middle = origin + (DVec2::from(self.at.map(|v| v as f64)) + 0.5) * side * step;
         let half = (0.5 + RIM) * side * step;
         let rest = 4.0 * f64::EPSILON * (origin.abs() + middle.abs() + half);
-        ModelPlace { coordinates: coordinates(middle, half, rest), middle, half, rest }
+        ModelDomain { coordinates: coordinates(middle, half, rest), middle, half, rest }
     }
 }
 
-fn coordinates(middle: DVec2, half: DVec2, rest: DVec2) -> [Quadratic; 2] {
-    [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]))
+fn coordinates(middle: DVec2, half: DVec2, rest: DVec2) -> [TaylorModel; 2] {
+    [0, 1].map(|axis: usize| TaylorModel::coordinate(axis, middle[axis], half[axis], rest[axis]))
 }

@@ -60,7 +60,7 @@ pub struct NoDepth {
 }
 
 /// The depth of a node.
-struct Found {
+struct FoundDepth {
     depth: f64,
     /// The distance of the nearest pixel, if the depth is its.
     distance: Option<f64>,
@@ -102,9 +102,9 @@ impl DepthSurface<'_> {
         self.around(at, 0.0).map(|found| found.depth)
     }
 
-    fn found_at(&self, mesh: MeshView, nodes: &[DVec2]) -> Result<Vec<Found>, NoDepth> {
+    fn found_at(&self, mesh: MeshView, nodes: &[DVec2]) -> Result<Vec<FoundDepth>, NoDepth> {
         let sides = mean_sides(mesh, nodes);
-        let found: Vec<Option<Found>> = nodes
+        let found: Vec<Option<FoundDepth>> = nodes
             .par_iter()
             .zip(&sides)
             .with_min_len(GRAIN)
@@ -119,15 +119,15 @@ impl DepthSurface<'_> {
 
     /// Returns the depth for a node whose triangles have sides of about `side`, in world units; `None` far
     /// from every pixel with a value.
-    fn around(&self, node: DVec2, side: f64) -> Option<Found> {
+    fn around(&self, node: DVec2, side: f64) -> Option<FoundDepth> {
         let covering = |(layer, _): &&(&Layer, &Depths)| covers(layer, node);
         if let Some(depth) = self.0.iter().filter(covering).find_map(|(_, depths)| around(depths, node, side))
         {
-            return Some(Found { depth, distance: None });
+            return Some(FoundDepth { depth, distance: None });
         }
         let nearest = self.0.iter().filter_map(|(_, depths)| nearest(depths, node));
         let nearest = nearest.min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(depth, distance)| Found { depth, distance: Some(distance) })
+        nearest.map(|(depth, distance)| FoundDepth { depth, distance: Some(distance) })
     }
 
     /// Compares the mesh with the pixels: each counts where its layer is the first with a value.
@@ -138,13 +138,13 @@ impl DepthSurface<'_> {
             self.compare(corners, values)
         });
         // In the order of the triangles, so that the sum is the same for any number of threads.
-        let sums: Vec<Sums> = sums.collect();
-        sums.iter().fold(Sums::default(), Sums::joined).fit()
+        let sums: Vec<DepthSums> = sums.collect();
+        sums.iter().fold(DepthSums::default(), DepthSums::joined).fit()
     }
 
     /// Compares a triangle with the pixels whose centres are in it.
-    fn compare(&self, corners: [DVec2; 3], values: [f64; 3]) -> Sums {
-        let mut sums = Sums::default();
+    fn compare(&self, corners: [DVec2; 3], values: [f64; 3]) -> DepthSums {
+        let mut sums = DepthSums::default();
         let bounds = Rect::holding(corners);
         let Some(bounds) = bounds else { return sums };
         for (place, (layer, depths)) in self.0.iter().enumerate() {
@@ -240,7 +240,7 @@ fn nearest(depths: &Depths, at: DVec2) -> Option<(f64, f64)> {
 
 /// Sums over pixels, by area.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct DepthSums {
     pixels: usize,
     largest: f64,
     at: DVec2,
@@ -249,7 +249,7 @@ struct Sums {
     squares: f64,
 }
 
-impl Sums {
+impl DepthSums {
     fn add(&mut self, difference: f64, area: f64, at: DVec2) {
         self.pixels += 1;
         self.area += area;

@@ -25,7 +25,7 @@ use super::reach::distance_between;
 use super::{PaintLayers, SizeField};
 
 /// A field of which pixels have changed, with a limit of the slope.
-pub struct Repainted<'a> {
+pub struct RepaintedField<'a> {
     pub field: &'a SizeField,
     /// The pixels as they are now.
     pub paint: &'a PaintLayers,
@@ -57,7 +57,7 @@ const PARTS_ACROSS: f64 = 8.0;
 /// A little less than one, for rounding errors of what is carried.
 const ROUNDED_DOWN: f64 = 1.0 - 1e-9;
 
-impl Repainted<'_> {
+impl RepaintedField<'_> {
     /// Returns the cells that changes of some cells can affect. `least` is the least diameter that has
     /// changed there, before or after, in world units.
     pub fn reach(&mut self, core: Cells, least: f64) -> Vec<Cells> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::engine::asked::Share;
-use super::risk_pixels::{WithGaps, range_within};
+use super::risk_pixels::{RiskWithGaps, range_within};
 use super::{Combine, Coverage, Layer, Mask, PaintLayers, Threats};
 use crate::field::{Bounds, Formula};
 use crate::geometry::Rect;
@@ -193,7 +193,7 @@ impl RiskSource {
             // Risk 0 is blank paint.
             Self::Paint(raster) => Risks::new(range_within(raster, seen, raster.grid(), 0.0), 0.0),
             Self::Raster(raster) => {
-                let with_gaps = WithGaps(raster);
+                let with_gaps = RiskWithGaps(raster);
                 let range = range_within(&with_gaps, seen, raster.grid(), f32::NEG_INFINITY);
                 Risks::new(range, f32::NEG_INFINITY)
             }

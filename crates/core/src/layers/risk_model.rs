@@ -1,17 +1,17 @@
 //! Models of the risk over a rectangle, where it is smooth.
 
-use super::models::ModelPlace;
+use super::models::ModelDomain;
 use super::risk::RiskSource;
 use super::{Combine, Coverage, RiskField};
-use crate::field::Quadratic;
+use crate::field::TaylorModel;
 
 impl RiskField {
     /// Returns a model of the risk over a rectangle. `None` where pixels or the rim of a mask count: the risk
     /// jumps there.
-    pub(crate) fn model(&self, place: &ModelPlace) -> Option<Quadratic> {
+    pub(crate) fn model(&self, place: &ModelDomain) -> Option<TaylorModel> {
         let rectangle = place.rect();
         let seen = self.seen(&rectangle);
-        let mut below = Quadratic::constant(0.0);
+        let mut below = TaylorModel::constant(0.0);
         for layer in &self.layers {
             match layer.mask.as_ref().map(|mask| mask.classify(&seen)) {
                 None | Some(Coverage::Inside) => {}
@@ -21,7 +21,7 @@ impl RiskField {
             let model = match &layer.source {
                 RiskSource::Paint(_) | RiskSource::Raster(_) => return None,
                 RiskSource::Formula(formula) => {
-                    let [zero, one] = [0.0, 1.0].map(Quadratic::constant);
+                    let [zero, one] = [0.0, 1.0].map(TaylorModel::constant);
                     formula.model(place.coordinates).max(&zero).min(&one)
                 }
                 // Threats that are not felt are no layer, which makes no difference to the greater risk.
@@ -34,6 +34,6 @@ impl RiskField {
                 Combine::Replace => model,
             };
         }
-        below.rest().is_finite().then_some(below)
+        below.remainder().is_finite().then_some(below)
     }
 }

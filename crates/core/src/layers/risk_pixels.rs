@@ -10,9 +10,9 @@ pub(super) const PIXEL_MARGIN: f64 = 1e-9;
 const FINEST_SCALE: i32 = -60;
 
 /// A raster whose gaps have a risk of −∞.
-pub(super) struct WithGaps<'a>(pub &'a RasterPyramid);
+pub(super) struct RiskWithGaps<'a>(pub &'a RasterPyramid);
 
-impl ValueRanges for WithGaps<'_> {
+impl ValueRanges for RiskWithGaps<'_> {
     fn grid(&self) -> &PixelGrid {
         self.0.grid()
     }

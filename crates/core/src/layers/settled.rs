@@ -1,11 +1,11 @@
-//! Answers of the area rule for whole squares of triangles.
+//! Memoizes the answers of the area rule for whole squares of triangles.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::engine::Nearby;
 use super::engine::cells::Cells;
 use super::engine::gradation::{GradedBounds, graded_bounds};
-use super::engine::parts::{PartId, Square};
+use super::engine::parts::{LatticeSquare, PartId};
 use super::engine::{CompiledLayer, KnownParts};
 use super::{PaintLayers, SizeField};
 use crate::earth::LEVELS;
@@ -13,7 +13,8 @@ use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Rect};
 use crate::mesh::LevelsWithin;
 
-/// A cache of the answers of a size field in squares of the lattice.
+/// A cache of the answers of a size field: the range of levels that each dyadic square of the lattice asks
+/// for.
 ///
 /// ```text
 ///   +-----------+     A triangle and the dyadic square around it, in which its sibling and its descendants
@@ -39,7 +40,7 @@ pub struct SettledSquares {
 #[derive(Clone, Debug)]
 struct Settled {
     /// `None` before the first use.
-    square: Option<Square>,
+    square: Option<LatticeSquare>,
     /// The known answers for all triangles within the square.
     levels: LevelsWithin,
     /// No point of a cell that touches a triangle within asks for less, in world units.
@@ -180,7 +181,7 @@ impl SizeField {
         squares: &SettledSquares,
         paint: &PaintLayers,
         (corners, level): ([LatticePoint; 3], u32),
-        square: Square,
+        square: LatticeSquare,
     ) -> Option<LevelsWithin> {
         if !self.stack.has_pixels_only() || squares.squares[place_of(square)].square == Some(square) {
             return None;
@@ -190,7 +191,7 @@ impl SizeField {
     }
 
     /// Returns the answers for the triangles in a square whose h̄ is between two diameters everywhere.
-    fn levels_between(&self, [least, greatest]: [f64; 2], square: Square) -> LevelsWithin {
+    fn levels_between(&self, [least, greatest]: [f64; 2], square: LatticeSquare) -> LevelsWithin {
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
         let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
         let lengths = self.edge_lengths();
@@ -217,15 +218,15 @@ impl SizeField {
 
     /// Returns the dyadic square around a triangle, unless that has few lattice steps.
     #[inline]
-    fn square_around(&self, [a, b, c]: [LatticePoint; 3], level: u32) -> Option<Square> {
+    fn square_around(&self, [a, b, c]: [LatticePoint; 3], level: u32) -> Option<LatticeSquare> {
         let bits = self.square_bits().get(level as usize).map_or(0, |&bits| u32::from(bits));
         let [column, row] = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)].map(|v| v.unbounded_shr(bits));
-        (bits > 0).then_some(Square { bits, column, row })
+        (bits > 0).then_some(LatticeSquare { bits, column, row })
     }
 
     /// Returns the place of what is known of all triangles in a square.
     #[inline]
-    fn settled(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: Square) -> usize {
+    fn settled(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: LatticeSquare) -> usize {
         let place = place_of(square);
         if squares.squares[place].square != Some(square) {
             self.settle(squares, paint, square);
@@ -235,13 +236,13 @@ impl SizeField {
 
     /// Finds out about all triangles in a square.
     #[cold]
-    fn settle(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: Square) {
+    fn settle(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: LatticeSquare) {
         squares.make_room();
         let found = match self.stack.slope() {
             None => self.settle_from(&[], &mut squares.known, paint, square),
             Some(_) => {
                 let bits = square.bits + WIDER_BITS;
-                if bits >= Square::whole(self.lattice().extent()).bits {
+                if bits >= LatticeSquare::whole(self.lattice().extent()).bits {
                     let whole = squares.known.whole(&self.stack);
                     self.settle_from(&[whole], &mut squares.known, paint, square)
                 } else {
@@ -260,9 +261,9 @@ impl SizeField {
         sources: &[PartId],
         known: &mut KnownParts,
         paint: &PaintLayers,
-        square: Square,
+        square: LatticeSquare,
     ) -> Settled {
-        let Square { bits, column, row } = square;
+        let LatticeSquare { bits, column, row } = square;
         let extent = self.lattice().extent();
         let (min, limit) =
             ([i64::from(column) << bits, i64::from(row) << bits], [extent.x, extent.y].map(i64::from));
@@ -301,7 +302,7 @@ impl SizeField {
 
 /// Returns the place at which a square is kept.
 #[inline]
-fn place_of(Square { bits, column, row }: Square) -> usize {
+fn place_of(LatticeSquare { bits, column, row }: LatticeSquare) -> usize {
     let key = u64::from(bits) << 58 | u64::from(column) << 29 | u64::from(row);
     (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS)) as usize
 }

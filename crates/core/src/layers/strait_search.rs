@@ -1,4 +1,4 @@
-//! How straits are found: by discs that touch two coasts.
+//! How straits are found: by medial balls, discs that touch two coasts.
 //!
 //! The discs are the medial balls of the water, found from their contact points by the shrinking ball of
 //! [MaBaeChoi2012]: a disc touches the coast at the point, keeps its centre on the normal there, and shrinks
@@ -47,7 +47,7 @@ impl StraitSearch {
         Self { region, marks, between, finder, next: 0, found: Vec::new() }
     }
 
-    /// Looks along so many edges of the coasts.
+    /// Looks along `edges` edges of the coasts.
     pub(crate) fn advance(&mut self, edges: usize) -> Progress {
         let all = self.finder.coasts.edges.len();
         let end = self.next.saturating_add(edges).min(all);

@@ -47,7 +47,7 @@ pub struct StraitDisc {
     pub width: f64,
 }
 
-/// At least so many triangles across every strait.
+/// A minimum number of triangles across every strait.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Straits {
     /// Triangles across a strait.
@@ -75,15 +75,15 @@ impl Straits {
 
 /// The straits of a domain, with an index. Clones share the data.
 #[derive(Clone, Debug)]
-pub struct StraitDiscs(Arc<Indexed>);
+pub struct StraitDiscs(Arc<IndexedStraits>);
 
 #[derive(Debug)]
-struct Indexed {
+struct IndexedStraits {
     /// The outline that they were found for.
     region: Option<Arc<Region>>,
     /// The marks that decide which parts of the outline are coasts.
     marks: BoundaryMarks,
-    /// The least and the greatest width that are asked for.
+    /// The minimum and the maximum width that are asked for.
     between: [f64; 2],
     /// The same as lengths in the plane.
     in_plane: [f64; 2],
@@ -127,7 +127,17 @@ impl StraitDiscs {
         let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
         let middles = Rect::holding(discs.iter().map(|disc| disc.center));
         let narrowest = OnceLock::new();
-        Self(Arc::new(Indexed { region, marks, between, in_plane, discs, middles, tree, least, narrowest }))
+        Self(Arc::new(IndexedStraits {
+            region,
+            marks,
+            between,
+            in_plane,
+            discs,
+            middles,
+            tree,
+            least,
+            narrowest,
+        }))
     }
 
     /// Returns straits that were not looked for yet: there are none.
@@ -154,7 +164,7 @@ impl StraitDiscs {
     /// Returns the narrowest passage between two shores of the domain that they were found for, with wider
     /// water on both sides; nothing if there is none. Corners and dead ends are no passages.
     pub fn narrowest(&self, domain: &Domain) -> Option<StraitDisc> {
-        let Indexed { marks, discs, narrowest, .. } = &*self.0;
+        let IndexedStraits { marks, discs, narrowest, .. } = &*self.0;
         *narrowest.get_or_init(|| narrowest_passage(domain, marks, discs))
     }
 
@@ -166,7 +176,7 @@ impl StraitDiscs {
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { discs, tree, least, .. } = &*self.0;
+        let IndexedStraits { discs, tree, least, .. } = &*self.0;
         let groups: usize = least.iter().map(|level| size_of_val(&**level)).sum();
         (Arc::as_ptr(&self.0).addr(), size_of_val(&**discs) + tree.bytes() + groups)
     }
@@ -224,7 +234,7 @@ impl StraitDiscs {
         limit: f64,
         diameter: impl Fn(f64) -> f64,
     ) -> Option<(f64, DVec2)> {
-        let Indexed { in_plane, discs, tree, least, .. } = &*self.0;
+        let IndexedStraits { in_plane, discs, tree, least, .. } = &*self.0;
         let best = std::cell::Cell::new((limit, None));
         let is_less = |width: f64, bounds: &Rect| {
             let distance = point.distance(point.clamp(bounds.min, bounds.max));
@@ -259,7 +269,7 @@ impl StraitDiscs {
     /// Visits discs near a rectangle, with the widths that count, until all others are wider than `visit`
     /// returns.
     fn visit(&self, rect: &Rect, mut visit: impl FnMut(&StraitDisc, f64) -> f64) {
-        let Indexed { discs, tree, least, .. } = &*self.0;
+        let IndexedStraits { discs, tree, least, .. } = &*self.0;
         let counted = |width| self.counted(width);
         let limit = std::cell::Cell::new(f64::INFINITY);
         let meets = |bounds: &Rect| bounds.min.cmple(rect.max).all() && rect.min.cmple(bounds.max).all();

@@ -3,19 +3,19 @@
 use std::ops::ControlFlow;
 
 use super::Threats;
-use super::models::{BoundedModel, ModelPlace};
+use super::models::{BoundedModel, ModelDomain};
 use super::threat_series::{Series, Squared};
 use super::threats::NO_SURVIVAL;
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 
 impl Threats {
     /// Returns a model of the combined risk.
-    pub(super) fn model(&self, place: &ModelPlace) -> Quadratic {
+    pub(super) fn model(&self, place: &ModelDomain) -> TaylorModel {
         self.bounded_model(place).polynomial
     }
 
     /// Returns a model of the combined risk, and bounds that are closer where a threat is at its peak.
-    pub(super) fn bounded_model(&self, place: &ModelPlace) -> BoundedModel {
+    pub(super) fn bounded_model(&self, place: &ModelDomain) -> BoundedModel {
         let (mut survival, mut is_felt) = (Survival::default(), false);
         let certain = self.visit_meeting(&place.rect(), |threat| {
             let squared = Squared::new(threat, place);
@@ -24,10 +24,10 @@ impl Threats {
             survival.meet(&squared, &risk, threat.peak);
             if survival.is_lost() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let one = Quadratic::constant(1.0);
+        let one = TaylorModel::constant(1.0);
         match certain {
             // Exactly: a risk of rounding errors would ask for more than none does.
-            ControlFlow::Continue(()) if !is_felt => BoundedModel::of(Quadratic::constant(0.0)),
+            ControlFlow::Continue(()) if !is_felt => BoundedModel::of(TaylorModel::constant(0.0)),
             ControlFlow::Continue(()) => {
                 BoundedModel { polynomial: one.minus(&survival.model()), bounds: survival.risk_bounds() }
             }
@@ -57,7 +57,7 @@ struct Survival {
     /// The largest distance from that polynomial.
     rest: f64,
     /// The product for threats that vary much.
-    others: Quadratic,
+    others: TaylorModel,
     /// No value of that is greater.
     most_of_others: f64,
     /// The products of what is survived of each threat at least, and at most.
@@ -72,7 +72,7 @@ impl Default for Survival {
             middle: 1.0,
             change: [0.0; 5],
             rest: 0.0,
-            others: Quadratic::constant(1.0),
+            others: TaylorModel::constant(1.0),
             most_of_others: 1.0,
             range: [1.0; 2],
             count: 0,
@@ -98,7 +98,7 @@ impl Survival {
         let change = linear_change + bend.abs() * step * step + rest;
         if !(inverse > 0.0 && change <= MOST_CHANGE) {
             let risk = squared.model().composed([risk.value, risk.slope, risk.bend], 0.0, risk.rest);
-            self.others = self.others.times(&Quadratic::constant(1.0).minus(&risk));
+            self.others = self.others.times(&TaylorModel::constant(1.0).minus(&risk));
             self.most_of_others = self.others.size();
             return;
         }
@@ -157,17 +157,17 @@ impl Survival {
     }
 
     /// Returns the series as a model.
-    fn model(&self) -> Quadratic {
+    fn model(&self) -> TaylorModel {
         let [u, v, uu, uv, vv] = self.change;
-        let logarithm = Quadratic::new([0.0, u, v, uu, uv, vv], self.rest);
+        let logarithm = TaylorModel::new([0.0, u, v, uu, uv, vv], self.rest);
         let Bounds { least, greatest, valid } = logarithm.bounds();
         if !valid || self.middle < LEAST_PRODUCT {
-            return Quadratic::UNKNOWN;
+            return TaylorModel::UNKNOWN;
         }
         let [least, greatest] = [libm::exp(least), libm::exp(greatest)];
         let factor = logarithm
             .composed([1.0, 1.0, 0.5], greatest / 6.0, 0.0)
             .or_bounds(|| Bounds::new(least, greatest).widened(4));
-        factor.times(&Quadratic::constant(self.middle)).times(&self.others)
+        factor.times(&TaylorModel::constant(self.middle)).times(&self.others)
     }
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::models::ModelPlace;
+use super::models::ModelDomain;
 use super::{Threat, ThreatLaw};
-use crate::field::Quadratic;
+use crate::field::TaylorModel;
 
 /// More than the rounding errors in a share of the peak.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -37,7 +37,7 @@ pub(super) struct Series {
 }
 
 impl Squared {
-    pub fn new(threat: &Threat, place: &ModelPlace) -> Self {
+    pub fn new(threat: &Threat, place: &ModelDomain) -> Self {
         let inverse = 1.0 / threat.range;
         let offset = (place.middle - threat.at) * inverse;
         let half = place.half * inverse;
@@ -56,9 +56,9 @@ impl Squared {
     }
 
     /// Returns the square of distance / range as a model.
-    pub fn model(&self) -> Quadratic {
+    pub fn model(&self) -> TaylorModel {
         let ([u, v], [uu, vv]) = (self.linear, self.bend);
-        Quadratic::new([self.middle, u, v, uu, 0.0, vv], self.rest)
+        TaylorModel::new([self.middle, u, v, uu, 0.0, vv], self.rest)
     }
 
     /// Returns an upper bound of the difference of a value from the one in the middle.

@@ -152,17 +152,17 @@ pub(super) const NO_SURVIVAL: f64 = f64::EPSILON / 16.0;
 /// Clones share their data. The risk at a point depends on the list alone, to the last bit, and not on the
 /// order of edits.
 #[derive(Clone, Debug, Default)]
-pub struct Threats(Arc<Indexed>);
+pub struct Threats(Arc<IndexedThreats>);
 
 #[derive(Clone, Debug)]
-struct Indexed {
+struct IndexedThreats {
     threats: Vec<Threat>,
     tree: BoxTree,
     /// For each group of the tree, by level, the product of 1 − peak: at least this is survived.
     survival: Vec<Vec<f64>>,
 }
 
-impl Default for Indexed {
+impl Default for IndexedThreats {
     fn default() -> Self {
         Self { threats: Vec::new(), tree: BoxTree::new(&[]), survival: Vec::new() }
     }
@@ -186,7 +186,7 @@ impl Threats {
         let reaches: Vec<Rect> = threats.iter().map(Threat::reach).collect();
         let tree = BoxTree::new(&reaches);
         let survival = tree.all_joined(|number| 1.0 - threats[number as usize].peak, PRODUCT);
-        Ok(Self(Arc::new(Indexed { threats, tree, survival })))
+        Ok(Self(Arc::new(IndexedThreats { threats, tree, survival })))
     }
 
     /// Returns the threats in the order in which they were given.
@@ -196,7 +196,7 @@ impl Threats {
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { threats, tree, survival } = &*self.0;
+        let IndexedThreats { threats, tree, survival } = &*self.0;
         let survival: usize = survival.iter().map(|level| size_of_val(&**level)).sum();
         (Arc::as_ptr(&self.0).addr(), size_of_val(&**threats) + tree.bytes() + survival)
     }
@@ -299,7 +299,7 @@ impl Threats {
     }
 }
 
-impl Indexed {
+impl IndexedThreats {
     /// Returns the product of 1 − peak over a group, from that of its members.
     fn survival_of(&self, group: BoxGroup) -> f64 {
         let survival = |number: u32| 1.0 - self.threats[number as usize].peak;

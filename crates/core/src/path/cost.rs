@@ -3,9 +3,9 @@
 use glam::DVec2;
 
 use super::PathError;
-use crate::field::{Bounds, CostFormula, Quadratic};
+use crate::field::{Bounds, CostFormula, TaylorModel};
 use crate::geometry::Rect;
-use crate::layers::{ModelPlace, RiskField};
+use crate::layers::{ModelDomain, RiskField};
 
 /// A cost per unit of length, in world units: positive and finite.
 ///
@@ -79,12 +79,12 @@ pub struct CostModel {
     /// c₀ … c₅.
     pub coefficients: [f64; 6],
     /// No value of the cost, as computed, differs by more from the polynomial.
-    pub rest: f64,
+    pub remainder: f64,
 }
 
 impl CostModel {
-    pub(crate) fn of(model: &Quadratic) -> Self {
-        Self { coefficients: model.coefficients(), rest: model.rest() }
+    pub(crate) fn of(model: &TaylorModel) -> Self {
+        Self { coefficients: model.coefficients(), remainder: model.remainder() }
     }
 
     /// Returns the mean of the polynomial over a segment whose middle is that of the rectangle. `way` leads
@@ -198,8 +198,8 @@ impl CostDensity for WeightedCost {
     }
 
     fn model(&self, rectangle: &Rect) -> Option<CostModel> {
-        let [length, weight] = [self.weights.length, self.weights.risk].map(Quadratic::constant);
-        let risk = self.risk.model(&ModelPlace::of_rectangle(rectangle))?;
+        let [length, weight] = [self.weights.length, self.weights.risk].map(TaylorModel::constant);
+        let risk = self.risk.model(&ModelDomain::of_rectangle(rectangle))?;
         Some(CostModel::of(&weight.times(&risk).plus(&length)))
     }
 
@@ -244,11 +244,11 @@ impl CostDensity for FormulaCost {
     }
 
     fn model(&self, rectangle: &Rect) -> Option<CostModel> {
-        let place = ModelPlace::of_rectangle(rectangle);
+        let place = ModelDomain::of_rectangle(rectangle);
         let uses_risk = self.formula.uses_risk();
-        let risk = if uses_risk { self.risk.model(&place)? } else { Quadratic::constant(0.0) };
+        let risk = if uses_risk { self.risk.model(&place)? } else { TaylorModel::constant(0.0) };
         let model = self.formula.model(place.coordinates, risk);
-        model.rest().is_finite().then(|| CostModel::of(&model))
+        model.remainder().is_finite().then(|| CostModel::of(&model))
     }
 
     fn risk_at(&self, point: DVec2) -> f64 {
@@ -398,7 +398,8 @@ mod tests {
             let middle = dvec2(random.f64(), random.f64());
             let half = libm::exp2(-9.0 * random.f64()) * dvec2(0.1 + random.f64(), 0.1 + random.f64());
             let rectangle = Rect::new(middle - half, middle + half);
-            let Some(CostModel { coefficients: [c, cu, cv, cuu, cuv, cvv], rest }) = cost.model(&rectangle)
+            let Some(CostModel { coefficients: [c, cu, cv, cuu, cuv, cvv], remainder }) =
+                cost.model(&rectangle)
             else {
                 continue;
             };
@@ -409,9 +410,9 @@ mod tests {
                 let model = c + cu * u + cv * v + cuu * u * u + cuv * u * v + cvv * v * v;
                 most = most.max((cost.at(point) - model).abs());
             }
-            assert!(most <= rest * (1.0 + 1e-9) + 1e-12, "{most} {rest} {stack:?} {rectangle:?}");
+            assert!(most <= remainder * (1.0 + 1e-9) + 1e-12, "{most} {remainder} {stack:?} {rectangle:?}");
             known += 1;
-            close += usize::from(rest < 0.1 * (cu.abs() + cv.abs()));
+            close += usize::from(remainder < 0.1 * (cu.abs() + cv.abs()));
         }
         assert!(known > 200 && close > 50, "{known} {close}");
     }

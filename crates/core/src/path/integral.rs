@@ -178,7 +178,7 @@ fn mean_of_model(p: DVec2, q: DVec2, rectangle: &Rect, density: &dyn CostDensity
     // The ends of the segment are rounded by some ulps.
     let (middle, half) = (place.center(), 0.5 * place.size());
     let moved = 8.0 * f64::EPSILON * (middle.abs() + half) / half;
-    let most = model.rest + ROUNDING * (size + model.rest) + model.steepest().dot(moved);
+    let most = model.remainder + ROUNDING * (size + model.remainder) + model.steepest().dot(moved);
     (most < f64::INFINITY).then(|| (model.mean_along(0.5 * (q - p) / half), most))
 }
 

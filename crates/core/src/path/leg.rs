@@ -186,17 +186,25 @@ impl LegSearch {
                 Some(search) => LegStep::Corners(Box::new(search)),
                 None => LegStep::Bound,
             },
-            LegStep::Corners(mut search) => {
-                let progress = self.look_around(&mut search, planner, density, nodes / INTERVALS);
-                if progress == Progress::More {
-                    return LegStep::Corners(search);
-                }
-                match search.way(&planner.mesh, &planner.walls) {
-                    Some(way) => self.smooth(way, false, LegStep::Bound),
-                    None => LegStep::Bound,
-                }
-            }
+            LegStep::Corners(search) => self.go_around(search, planner, density, nodes),
             step @ (LegStep::Trace | LegStep::Bound | LegStep::Raise(_)) => step,
+        }
+    }
+
+    /// Continues the search for the shortest way, and smooths the way at the end.
+    fn go_around(
+        &mut self,
+        mut search: Box<CornerSearch>,
+        planner: &Planner,
+        density: &dyn CostDensity,
+        nodes: usize,
+    ) -> LegStep {
+        if self.look_around(&mut search, planner, density, nodes / INTERVALS) == Progress::More {
+            return LegStep::Corners(search);
+        }
+        match search.way(&planner.mesh, &planner.walls) {
+            Some(way) => self.smooth(way, false, LegStep::Bound),
+            None => LegStep::Bound,
         }
     }
 

@@ -96,8 +96,8 @@ mod tests {
             assert_eq!(domain.min, raster.pixel_center(0, 0));
             assert_eq!(domain.max, raster.pixel_center(size[0] - 1, size[1] - 1));
             assert!(spacing.is_none_or(|spacing| side <= spacing * (1.0 + 1e-12)), "{side} for {spacing:?}");
-            let usual = (domain.size().max_element() / 16.0).max(pixel.max_element());
-            assert!(spacing.is_some() || side <= usual * (1.0 + 1e-6), "{side} of {usual}");
+            let default = (domain.size().max_element() / 16.0).max(pixel.max_element());
+            assert!(spacing.is_some() || side <= default * (1.0 + 1e-6), "{side} of {default}");
         }
         let row = Raster::filled(Rect::UNIT, [4, 1], 0.0);
         assert_eq!(domain_on_samples(&row, None), None);

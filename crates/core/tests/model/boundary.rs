@@ -377,8 +377,8 @@ fn a_type_is_set_stays_with_both_parts_and_is_joined() {
     let types =
         |marks: &BoundaryMarks| at(marks).list().iter().map(|piece| piece.set_type).collect::<Vec<_>>();
     let pieces = at(&none);
-    let usual: Vec<&str> = pieces.list().iter().map(|piece| piece.boundary_type().word()).collect();
-    assert_eq!(usual, ["open", "open", "open", "land", "land", "land"]);
+    let default: Vec<&str> = pieces.list().iter().map(|piece| piece.boundary_type().word()).collect();
+    assert_eq!(default, ["open", "open", "open", "land", "land", "land"]);
     let [river, wall] = [BoundaryType::Inflow, BoundaryType::NoSlipLand].map(Some);
     let marks = pieces.retyped(&pieces.retyped(&none, 3, river), 5, wall);
     assert_eq!(types(&marks), [None, None, None, river, None, wall]);

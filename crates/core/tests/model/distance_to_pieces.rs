@@ -48,7 +48,7 @@ fn marked(marks: &BoundaryMarks, domain: &Domain, random: &mut Rng) -> BoundaryM
 /// The distance to the chosen pieces, from points along them.
 fn referee(settings: &Settings, chosen: &PieceChoice, at: DVec2) -> f64 {
     let pieces = BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks).unwrap();
-    let usual = |name: &str, kind| match name.to_lowercase() {
+    let default = |name: &str, kind| match name.to_lowercase() {
         name if name.starts_with("open") => BoundaryType::Open,
         name if name.starts_with("land") => BoundaryType::Land,
         _ if kind == BoundaryKind::Open => BoundaryType::Open,
@@ -56,7 +56,7 @@ fn referee(settings: &Settings, chosen: &PieceChoice, at: DVec2) -> f64 {
     };
     let mut least = f64::INFINITY;
     for piece in pieces.list() {
-        let of_piece = piece.set_type.unwrap_or(usual(&piece.name, piece.kind));
+        let of_piece = piece.set_type.unwrap_or(default(&piece.name, piece.kind));
         if !chosen.names.contains(&piece.name) && !chosen.types.contains(&of_piece) {
             continue;
         }

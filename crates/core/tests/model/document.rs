@@ -65,7 +65,7 @@ impl ExampleData for Data {
 }
 
 fn with_base(base: LayerKind) -> Settings {
-    Settings { layers: Layer::usual(base), ..Settings::default() }
+    Settings { layers: Layer::default_stack(base), ..Settings::default() }
 }
 
 fn risk_layer(name: &str, raster: RasterPyramid) -> LayerKind {
@@ -167,8 +167,8 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::SmallestDiameter(-1.0),
         Setting::LargestDiameter(f64::INFINITY),
         Setting::TransferShape(0.0),
-        Setting::Layers(Layer::usual(LayerKind::constant(0.0))),
-        Setting::Layers(Layer::usual(LayerKind::target(Formula::parse("0 / 0").unwrap()))),
+        Setting::Layers(Layer::default_stack(LayerKind::constant(0.0))),
+        Setting::Layers(Layer::default_stack(LayerKind::target(Formula::parse("0 / 0").unwrap()))),
         Setting::Gradation(Some(0.0)),
         Setting::Gradation(Some(f64::NAN)),
         Setting::MaxMemory(0),
@@ -181,7 +181,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
     }
     // These are found only while layers are checked or the mesh is refined: the document takes them back.
     let formula = |text| Formula::parse(text).unwrap();
-    let base = |text| Setting::Layers(Layer::usual(LayerKind::target(formula(text))));
+    let base = |text| Setting::Layers(Layer::default_stack(LayerKind::target(formula(text))));
     let late = [
         base("sqrt(0.5 - x)"),
         base("x - 0.7"),
@@ -229,7 +229,9 @@ fn outlines_and_pictures_count_for_the_memory_limit_of_the_history() {
             let shape = DomainShape::Region(Arc::new(regions[n % 2].clone()));
             Setting::Domain(Domain { bounds: Rect::UNIT, shape, projection: None })
         }),
-        (raster.bytes(), &|n| Setting::Layers(Layer::usual(risk_layer(&format!("{n}.png"), raster.clone())))),
+        (raster.bytes(), &|n| {
+            Setting::Layers(Layer::default_stack(risk_layer(&format!("{n}.png"), raster.clone())))
+        }),
     ];
     for (bytes, change) in changes {
         let mut document = Document::new(Settings::default(), None).unwrap();
@@ -290,7 +292,7 @@ fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
     let settings = Settings {
         spacing: 0.25,
         rule: RefinementRule::Vertex,
-        layers: Layer::usual(LayerKind::target(formula)),
+        layers: Layer::default_stack(LayerKind::target(formula)),
         ..Settings::default()
     };
     let error = Follower::new(&mut Document::new(settings, None).unwrap()).unwrap_err();

@@ -63,7 +63,7 @@ fn kind(bounds: &Rect, random: &mut Rng) -> LayerKind {
 
 fn layers(bounds: &Rect, random: &mut Rng) -> Vec<Layer> {
     let count = random.usize(1..4);
-    let mut layers = Layer::usual(kind(bounds, random));
+    let mut layers = Layer::default_stack(kind(bounds, random));
     for number in 0..count {
         let id = LayerId(10 + number as u32);
         let combine = if random.u32(0..5) == 0 { Combine::Floor } else { Combine::Finest };
@@ -183,7 +183,7 @@ fn the_level_of_a_diameter_is_that_of_the_triangles_at_the_place() {
             Settings {
                 spacing: 0.2 * bounds.size().max_element(),
                 transfer: Transfer { h_min: target, h_risk: target, h_max: 1e9, shape: 1.0 },
-                layers: Layer::usual(LayerKind::constant(target)),
+                layers: Layer::default_stack(LayerKind::constant(target)),
                 ..Settings::for_domain(
                     "levels".into(),
                     Domain { projection: Some(projection), ..Domain::rectangle(bounds) },

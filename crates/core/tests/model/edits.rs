@@ -98,8 +98,8 @@ fn the_mesh_does_not_depend_on_the_number_of_threads() {
     assert!(equal > 15 && 10 * equal > 9 * all, "{equal} of {all}");
 }
 
-fn run(scale: Scale, usual: u64) {
-    let edits = runs(usual) as usize;
+fn run(scale: Scale, default: u64) {
+    let edits = runs(default) as usize;
     let mut seen = Seen::default();
     for seed in seeds(1).start.. {
         eprintln!("document {seed}");

@@ -30,7 +30,7 @@ fn assert_as_from_scratch(follower: &Follower, document: &Document) {
 /// More than a hundred thousand triangles below a wave, few above it.
 fn large() -> (Document, Follower) {
     let formula = Formula::parse("if(y < 0.4 + 0.1 * sin(7 * x), 0.004, 0.2)").unwrap();
-    let layers = Layer::usual(LayerKind::target(formula));
+    let layers = Layer::default_stack(LayerKind::target(formula));
     let mut document = Document::new(Settings { layers, ..Settings::default() }, None).unwrap();
     let follower = Follower::new(&mut document).unwrap();
     assert!(follower.mesh().raw_triangle_count() > 100_000, "{}", follower.mesh().raw_triangle_count());
@@ -58,7 +58,7 @@ fn the_bare_rectangle_stands_for_the_mesh_of_another_document_until_it_is_made()
         let transfer = Transfer::between(0.002, 0.004);
         let other =
             Settings { domain: domain.clone(), transfer, spacing: 0.5, ..document.settings().clone() };
-        let other = Settings { layers: Layer::usual(LayerKind::constant(0.2)), ..other };
+        let other = Settings { layers: Layer::default_stack(LayerKind::constant(0.2)), ..other };
         document.replace_with(Document::new(other, None).unwrap());
         let revision = follower.revision();
         follower.show_bare(&document);
@@ -156,7 +156,7 @@ fn the_mesh_moves_while_a_setting_is_dragged_and_ends_as_from_scratch() {
     // Other layers and limits are followed where h̄ differs.
     let disc = |t| {
         let text = format!("if(hypot(x - 0.3 - 0.4 * {t}, y - 0.8) < 0.1, 0.006, 0.2)");
-        Setting::Layers(Layer::usual(LayerKind::target(Formula::parse(&text).unwrap())))
+        Setting::Layers(Layer::default_stack(LayerKind::target(Formula::parse(&text).unwrap())))
     };
     let smallest = |t| Setting::SmallestDiameter(0.0045 + 0.05 * t);
     let settings: [&dyn Fn(f64) -> Setting; 2] = [&smallest, &disc];
@@ -186,7 +186,7 @@ fn layers_transfer_and_gradation_change_the_mesh_where_it_is() {
         &|document| with(document, |layers| layers[2].combine = Combine::Replace),
         &|document| with(document, |layers| layers.swap(0, 2)),
         &|document| with(document, |layers| _ = layers.remove(1)),
-        &|_| Setting::Layers(Layer::usual(target("if(x < 0.5, 0.01, inf)"))),
+        &|_| Setting::Layers(Layer::default_stack(target("if(x < 0.5, 0.01, inf)"))),
         &|_| Setting::Gradation(Some(0.7)),
         &|_| Setting::TransferShape(2.0),
         &|_| Setting::SmallestDiameter(0.004),
@@ -205,7 +205,7 @@ fn layers_transfer_and_gradation_change_the_mesh_where_it_is() {
 #[test]
 fn limits_that_change_most_of_a_large_mesh_make_another_one() {
     let formula = Formula::parse("0.0045 + 0.001 * x").unwrap();
-    let layers = Layer::usual(LayerKind::target(formula));
+    let layers = Layer::default_stack(LayerKind::target(formula));
     let settings = Settings { layers, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     document.set(Setting::SmallestDiameter(0.003)).unwrap();

@@ -95,7 +95,7 @@ fn the_message_about_a_value_names_its_layer() {
 #[test]
 fn a_new_document_has_24_cells_along_a_side_and_the_usual_boundary() {
     let settings = Settings::default();
-    assert_eq!(settings.boundary, BoundaryTreatment::usual(settings.spacing));
+    assert_eq!(settings.boundary, BoundaryTreatment::default_for(settings.spacing));
     let lattice = Lattice::covering(settings.domain.bounds, settings.spacing, 10_000).unwrap();
     assert_eq!(lattice.cells(), [24, 24]);
 }

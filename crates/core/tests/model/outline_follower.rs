@@ -94,7 +94,7 @@ impl Scene {
         let diameter = size * 0.012 * 4f64.powf(random.f64());
         let mut settings = Settings::for_domain("coast".into(), domain);
         settings.boundary = BoundaryTreatment::OnOutline { diameter };
-        settings.layers = Layer::usual(LayerKind::constant(0.2 * size));
+        settings.layers = Layer::default_stack(LayerKind::constant(0.2 * size));
         let finest = 0.2 * diameter;
         (settings.transfer.h_min, settings.transfer.h_risk) = (finest, finest);
         let mut document = Document::new(settings, None).unwrap();

@@ -27,7 +27,7 @@ fn the_price_of_other_limits_is_what_they_then_cost() {
     let [mut local, mut spread] = [0; 2];
     for run in 0..runs(24) {
         let settings = Settings {
-            layers: Layer::usual(LayerKind::constant(0.05 + 0.1 * random.f64())),
+            layers: Layer::default_stack(LayerKind::constant(0.05 + 0.1 * random.f64())),
             spacing: 0.2,
             transfer: Transfer { h_min: 0.02, h_risk: 0.03, h_max: 0.2, shape: 1.0 },
             ..Settings::default()

@@ -275,8 +275,8 @@ fn coast(random: &mut Rng) -> Polygon {
 }
 
 /// Compares meshes of polygons; with `derived`, those with nodes on the outline.
-fn compare_coasts(derived: bool, usual: u64) {
-    for seed in seeds(usual) {
+fn compare_coasts(derived: bool, default: u64) {
+    for seed in seeds(default) {
         let mut random = Rng::with_seed(1000 + seed);
         let (map, polygon) = (any_map(&mut random), coast(&mut random));
         let mesh = |map: &Map| {

@@ -136,9 +136,9 @@ fn upper_corner(min: DVec2, cell: DVec2, [columns, rows]: [u32; 2]) -> DVec2 {
 /// no such number.
 fn no_data(raster: &Raster) -> Option<f32> {
     let values = raster.values();
-    let usual = USUAL_NO_DATA as f32;
-    values.iter().any(|&value| value.is_nan() || value == usual).then(|| {
-        let mut candidate = usual;
+    let default = DEFAULT_NO_DATA as f32;
+    values.iter().any(|&value| value.is_nan() || value == default).then(|| {
+        let mut candidate = default;
         while values.contains(&candidate) {
             candidate *= 10.0;
         }
@@ -202,7 +202,7 @@ fn parse_over(
 }
 
 /// The number of cells without a value where the header names none.
-const USUAL_NO_DATA: f64 = -9999.0;
+const DEFAULT_NO_DATA: f64 = -9999.0;
 
 /// What the header says.
 struct AscHeader {
@@ -258,7 +258,7 @@ impl AscHeader {
 
     /// Returns the number of cells without a value.
     fn no_data(&self) -> NoData {
-        NoData::rounded(self.number(NO_DATA).unwrap_or(USUAL_NO_DATA), SampleType::Single)
+        NoData::rounded(self.number(NO_DATA).unwrap_or(DEFAULT_NO_DATA), SampleType::Single)
     }
 
     /// Returns whether a word stands for a cell without a value.

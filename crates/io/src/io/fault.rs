@@ -10,26 +10,26 @@ use meshbrush_mesh::text::{Number, excerpt};
 
 /// A step from a table or a list to a value in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum KeyStep {
     /// The value of a key.
     Key(Cow<'static, str>),
     /// An entry of a list, counted from 0.
     Index(usize),
 }
 
-impl From<&'static str> for Step {
+impl From<&'static str> for KeyStep {
     fn from(key: &'static str) -> Self {
         Self::Key(key.into())
     }
 }
 
-impl From<String> for Step {
+impl From<String> for KeyStep {
     fn from(key: String) -> Self {
         Self::Key(key.into())
     }
 }
 
-impl From<usize> for Step {
+impl From<usize> for KeyStep {
     fn from(index: usize) -> Self {
         Self::Index(index)
     }
@@ -51,7 +51,7 @@ pub enum Mark {
 #[error("{}{}{sentence}", KeyPath(path), given.as_deref().unwrap_or_default())]
 pub struct KeyFault {
     /// The keys and indices from the root of the text to the value.
-    pub path: Vec<Step>,
+    pub path: Vec<KeyStep>,
     /// The part of the text to point at.
     pub mark: Mark,
     /// The value and what is wrong with it, as in `0 cannot be used: `, unless the sentence says it: left out
@@ -84,12 +84,12 @@ impl KeyFault {
     }
 
     /// Returns the fault of a value that cannot be used, in the table that holds it.
-    pub fn value(key: impl Into<Step>, sentence: impl Into<String>) -> Self {
+    pub fn value(key: impl Into<KeyStep>, sentence: impl Into<String>) -> Self {
         Self::here(sentence).within(key)
     }
 
     /// Returns the fault of a text whose formula has a mistake. The formula begins after `skipped` bytes.
-    pub fn mistake(key: impl Into<Step>, text: &str, skipped: usize, mistake: &ParseError) -> Self {
+    pub fn mistake(key: impl Into<KeyStep>, text: &str, skipped: usize, mistake: &ParseError) -> Self {
         let before = &text[..skipped + mistake.span().start];
         Self {
             pointer: Some(mistake.pointer().to_owned()),
@@ -99,23 +99,23 @@ impl KeyFault {
     }
 
     /// Returns the fault of a key that should not be there.
-    pub fn key(key: impl Into<Step>, sentence: impl Into<String>) -> Self {
+    pub fn key(key: impl Into<KeyStep>, sentence: impl Into<String>) -> Self {
         Self { mark: Mark::Key, ..Self::value(key, sentence) }
     }
 
     /// Returns a fault of a key whose value names something that does not exist.
-    pub fn entry(key: impl Into<Step>, sentence: impl Into<String>) -> Self {
+    pub fn entry(key: impl Into<KeyStep>, sentence: impl Into<String>) -> Self {
         Self { mark: Mark::Entry, ..Self::value(key, sentence) }
     }
 
     /// Returns the fault as one in a larger table or list: `step` leads from there to the former root.
-    pub fn within(mut self, step: impl Into<Step>) -> Self {
+    pub fn within(mut self, step: impl Into<KeyStep>) -> Self {
         self.path.insert(0, step.into());
         self
     }
 
     /// Returns the fault as one in an entry of the list that it was found in.
-    pub fn at(mut self, step: impl Into<Step>) -> Self {
+    pub fn at(mut self, step: impl Into<KeyStep>) -> Self {
         self.path.push(step.into());
         self
     }
@@ -185,15 +185,15 @@ impl Error for KeyFault {
 }
 
 /// A path for a person: `layer 3, curve: `. Entries are counted from 1.
-struct KeyPath<'a>(&'a [Step]);
+struct KeyPath<'a>(&'a [KeyStep]);
 
 impl Display for KeyPath<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (position, step) in self.0.iter().enumerate() {
             match step {
-                Step::Key(key) if position > 0 => write!(f, ", {}", excerpt(40, key))?,
-                Step::Key(key) => f.write_str(&excerpt(40, key))?,
-                Step::Index(index) => write!(f, " {}", index + 1)?,
+                KeyStep::Key(key) if position > 0 => write!(f, ", {}", excerpt(40, key))?,
+                KeyStep::Key(key) => f.write_str(&excerpt(40, key))?,
+                KeyStep::Index(index) => write!(f, " {}", index + 1)?,
             }
         }
         if self.0.is_empty() { Ok(()) } else { f.write_str(": ") }

@@ -52,17 +52,17 @@ impl MeshFormat {
         Self::all().find(|format| format.name() == name).or_else(|| Self::from_ending(name))
     }
 
-    /// The name of the format: its usual extension, or another word, as `fvcom` and `ugrid`.
+    /// The name of the format: its default extension, or another word, as `fvcom` and `ugrid`.
     pub fn name(self) -> &'static str {
         self.spec.name
     }
 
-    /// The usual file name extension, in lower case and without the dot.
+    /// The default file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         self.spec.endings[0]
     }
 
-    /// The file name extensions that choose this format, the usual one first.
+    /// The file name extensions that choose this format, the default one first.
     pub fn endings(self) -> impl Iterator<Item = &'static str> {
         self.spec.endings.iter().copied().filter(move |ending| Self::from_ending(ending) == Some(self))
     }

@@ -48,7 +48,7 @@ impl RasterFormat {
         })
     }
 
-    /// The usual file name extension, in lower case and without the dot.
+    /// The default file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
         self.0.endings[0]
     }

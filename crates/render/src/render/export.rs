@@ -85,7 +85,7 @@ impl ExportFormat {
         MeshFormat::all().map(Self::Mesh).chain([Self::Svg, Self::Png])
     }
 
-    /// Returns the name of this format: its usual ending, or another word, as `fvcom` and `ugrid`.
+    /// Returns the name of this format: its default ending, or another word, as `fvcom` and `ugrid`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mesh(format) => format.name(),
@@ -93,7 +93,7 @@ impl ExportFormat {
         }
     }
 
-    /// Returns the usual ending of file names of this format, without the dot.
+    /// Returns the default ending of file names of this format, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Mesh(format) => format.ending(),
@@ -318,8 +318,8 @@ impl SpaceLook {
         heights: NodeHeights,
         lattice: &Lattice,
     ) -> Self {
-        let usual = || SpaceCamera::visible_exaggeration(lattice.bounds(), heights.relief());
-        let exaggeration = factor.map_or_else(usual, |factor| factor * metre);
+        let default = || SpaceCamera::visible_exaggeration(lattice.bounds(), heights.relief());
+        let exaggeration = factor.map_or_else(default, |factor| factor * metre);
         Self { direction, light, exaggeration, metre, heights: Arc::new(heights) }
     }
 

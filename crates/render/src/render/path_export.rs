@@ -47,7 +47,7 @@ pub struct UnknownPathEnding(pub PathBuf);
 pub struct NotOnEarth(pub PathBuf);
 
 impl PathFormat {
-    /// All endings, without their dots, the usual one first.
+    /// All endings, without their dots, the default one first.
     pub const ENDINGS: [&'static str; 7] = ["geojson", "csv", "gpx", "kml", "svg", "png", "json"];
 
     /// Returns the format that the ending of a file name chooses; upper and lower case are the same.

@@ -949,10 +949,10 @@ fn targets_are_read_by_the_formats_that_have_them_only() {
             files.unwrap().into_iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
         };
         std::fs::create_dir_all(&folder).unwrap();
-        let usual = written(&sample.targets);
+        let default = written(&sample.targets);
         match format.has_targets() {
-            true => assert!(usual != written(&vec![0.125; sample.targets.len()]), "{format:?}"),
-            false => assert!(usual == written(&[]), "{format:?}"),
+            true => assert!(default != written(&vec![0.125; sample.targets.len()]), "{format:?}"),
+            false => assert!(default == written(&[]), "{format:?}"),
         }
         std::fs::remove_dir_all(&folder).unwrap();
     }

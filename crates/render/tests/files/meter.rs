@@ -80,7 +80,7 @@ fn large_project() -> Project {
     let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [500, 400], values)));
     let source = RasterSource { name: "noise.png".into(), raster };
     project.settings.layers =
-        Layer::usual(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }));
+        Layer::default_stack(LayerKind::Raster(RasterLayer { source, reading: RasterReading::Risk }));
     project
 }
 

@@ -46,8 +46,8 @@ fn view(mesh: &Mesh, heights: &NodeHeights, azimuth: f64, altitude: f64) -> Spac
 
 /// Returns the view of heights that are so many times those of a usual view.
 fn higher_view(mesh: &Mesh, heights: &NodeHeights, azimuth: f64, altitude: f64, times: f64) -> SpaceView {
-    let usual = SpaceCamera::visible_exaggeration(mesh.lattice().bounds(), heights.relief());
-    let exaggeration = times * usual;
+    let default = SpaceCamera::visible_exaggeration(mesh.lattice().bounds(), heights.relief());
+    let exaggeration = times * default;
     let direction = ViewDirection { azimuth, altitude };
     let surface = (heights.scale, heights.ends());
     let camera = SpaceCamera::fit(mesh.lattice(), surface, direction, exaggeration, SIZE, 10.0);

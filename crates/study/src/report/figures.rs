@@ -221,9 +221,9 @@ fn small(target: &str, spacing: f64, figure: ReportFigure) -> Settings {
     let domain = Domain::rectangle(Rect::UNIT);
     Settings {
         spacing,
-        boundary: BoundaryTreatment::usual(spacing),
+        boundary: BoundaryTreatment::default_for(spacing),
         transfer: Transfer::between(0.01, 1.0),
-        layers: Layer::usual(LayerKind::target(Formula::parse(target).expect("a valid formula"))),
+        layers: Layer::default_stack(LayerKind::target(Formula::parse(target).expect("a valid formula"))),
         rule: RefinementRule::Vertex,
         boundary_marks: Arc::default(),
         ..Settings::for_domain(figure.name().into(), domain)

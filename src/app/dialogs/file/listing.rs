@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::jobs::{Job, Jobs, Kind, Taken};
+use crate::app::jobs::{Job, JobKind, Jobs, Taken};
 use meshbrush_io::io::{self, FolderListing, MOST_ENTRIES};
 
 /// The contents of a folder, as far as they are known.
@@ -27,7 +27,7 @@ impl Listing {
     /// Reads a folder.
     pub fn of(folder: &Path, jobs: &Jobs) -> Self {
         let path = folder.to_owned();
-        let job = jobs.start(Kind::Ask, move |output| {
+        let job = jobs.start(JobKind::Ask, move |output| {
             output.send(io::list_folder(&path));
         });
         let (jobs, folder) = (jobs.clone(), folder.to_owned());

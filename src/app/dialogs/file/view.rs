@@ -9,7 +9,7 @@ use eframe::egui::{
 };
 
 use super::{Contents, FileDialog};
-use crate::app::background::{Row, WorkId};
+use crate::app::background::{ProgressRow, WorkId};
 use crate::app::file_kinds::EXPORT_MESH;
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
@@ -33,7 +33,7 @@ pub struct FileFacts<'a> {
     /// The settings of the document.
     pub settings: &'a Settings,
     /// Files that are being read.
-    pub reads: &'a [Row],
+    pub reads: &'a [ProgressRow],
 }
 
 /// The answer of [`FileDialog::show`].

@@ -109,9 +109,9 @@ fn selected_rows(
 ) {
     let piece = &pieces.list()[selected];
     value_row(ui, "Kind", piece.kind.name());
-    let usual = format!("usual ({})", piece.usual_type().word());
+    let default = format!("default ({})", piece.default_type().word());
     let types = BoundaryType::ALL.map(|boundary_type| (Some(boundary_type), boundary_type.word()));
-    let choices = [&[(None, usual.as_str())], &types[..]].concat();
+    let choices = [&[(None, default.as_str())], &types[..]].concat();
     let mut chosen = piece.set_type;
     if dropdown_row(ui, "Type", &mut chosen, &choices).changed() {
         let marks = &state.session.document().settings().boundary_marks;

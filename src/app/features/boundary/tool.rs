@@ -55,7 +55,7 @@ const WIDE: f32 = 5.0;
 
 /// The depth beyond which the boundary is opened unless a person chooses another, in metres: about that of
 /// the edge of a shelf sea.
-const USUAL_LEVEL: f64 = 50.0;
+const DEFAULT_LEVEL: f64 = 50.0;
 
 /// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,7 +86,7 @@ impl ToolSettings for BoundaryTool {
 
 impl Default for BoundaryTool {
     fn default() -> Self {
-        Self { mode: BoundaryToolMode::default(), selected: None, level: USUAL_LEVEL }
+        Self { mode: BoundaryToolMode::default(), selected: None, level: DEFAULT_LEVEL }
     }
 }
 

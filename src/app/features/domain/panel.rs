@@ -16,7 +16,7 @@ use meshbrush_ui::widgets::{
 };
 
 /// Share of the area from which parts stay, to start with.
-const USUAL_SHARE: f64 = 0.01;
+const DEFAULT_SHARE: f64 = 0.01;
 
 /// The outline of the domain, its unit, its bounds and its formula.
 pub static DOMAIN_PANEL: Panel = Panel { name: "domain", tab: Tab::Domain, place: 0, show };
@@ -42,7 +42,7 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     let id = Id::unique("last diameter at the outline");
     let diameter = settings.boundary.diameter().unwrap_or_else(|| {
         let last = ui.data(|data| data.get_temp(id));
-        last.unwrap_or_else(|| usual_diameter(settings))
+        last.unwrap_or_else(|| default_diameter(settings))
     });
     let mut chosen = settings.boundary;
     let choices = [
@@ -77,8 +77,8 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
 }
 
 /// Returns the diameter at the outline unless a person chooses one.
-fn usual_diameter(settings: &Settings) -> f64 {
-    BoundaryTreatment::usual_diameter(settings.domain.longest_on_earth(settings.spacing))
+fn default_diameter(settings: &Settings) -> f64 {
+    BoundaryTreatment::default_diameter(settings.domain.longest_on_earth(settings.spacing))
 }
 
 fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands: &mut Vec<Command>) {
@@ -86,8 +86,8 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands
     let extent = settings.domain.bounds.size().max_element();
     let row = SliderRow::new("At outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
     let help = "Largest diameter of a triangle that the outline passes through.";
-    let usual = usual_diameter(settings);
-    let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(usual);
+    let default = default_diameter(settings);
+    let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(default);
     let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
         commands.push(Command::from(EditCommand::Set(Setting::Boundary(
@@ -102,7 +102,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
     let mut parts = cleaning.parts;
     let share = match parts {
         KeptParts::Share(share) => share,
-        _ => USUAL_SHARE,
+        _ => DEFAULT_SHARE,
     };
     let from_share = KeptParts::Share(share);
     let choices =
@@ -113,7 +113,7 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
     ui.add_space(4.0);
     if let KeptParts::Share(mut share) = cleaning.parts {
         let row = SliderRow::new("From share", &mut share, 1e-4..=1.0).logarithmic();
-        let row = row.typed_range(0.0..=1.0).default(USUAL_SHARE);
+        let row = row.typed_range(0.0..=1.0).default(DEFAULT_SHARE);
         let response = row.help("Parts with at least this share of the area stay.").show(ui);
         if response.changed() {
             let parts = KeptParts::Share(share);

@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use super::text::{Inspection, LayerAnswer, NEIGHBOURS, Row};
+use super::text::{Inspection, InspectorRow, LayerAnswer, NEIGHBOURS};
 use crate::app::command::{Command, ShellCommand, ViewCommand};
 use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::{FrameState, Panel, Tab};
@@ -94,7 +94,7 @@ fn layer_rows(ui: &mut Ui, inspection: &Inspection<'_>, commands: &mut Vec<Comma
 const LAYER_HELP: &str = "What this layer alone asks for at the point, before the layers are combined.";
 
 /// Rows that a click copies, in full.
-fn copied_rows(ui: &mut Ui, rows: &[Row], commands: &mut Vec<Command>) {
+fn copied_rows(ui: &mut Ui, rows: &[InspectorRow], commands: &mut Vec<Command>) {
     for row in rows {
         let help = if row.label.starts_with('v') { VERTEX_HELP } else { "" };
         if ValueRow::new(&row.label, &row.shown).help(help).copies(&row.exact).show(ui).clicked() {

@@ -13,7 +13,7 @@ pub const NEIGHBOURS: [&str; 3] = ["Bisection neighbour", "Second neighbour", "T
 
 /// A name and its value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct InspectorRow {
     /// The name.
     pub label: String,
     /// The value, rounded for the panel, with its unit.
@@ -24,7 +24,7 @@ pub struct Row {
     pub unit: LengthUnit,
 }
 
-impl Row {
+impl InspectorRow {
     fn new(label: impl Into<String>, shown: impl Into<String>, exact: impl Into<String>) -> Self {
         Self { label: label.into(), shown: shown.into(), exact: exact.into(), unit: LengthUnit::None }
     }
@@ -43,7 +43,7 @@ impl Row {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerAnswer {
     /// The name of the layer and its target diameter.
-    pub row: Row,
+    pub row: InspectorRow,
     /// Whether the layer decides h̄ there.
     pub decides: bool,
 }
@@ -83,7 +83,7 @@ impl<'a> Inspection<'a> {
     }
 
     /// Returns the level, size and position.
-    pub fn place_rows(&self) -> Vec<Row> {
+    pub fn place_rows(&self) -> Vec<InspectorRow> {
         let triangle = self.triangle;
         let orientation = match triangle.orientation {
             Orientation::Clockwise => "clockwise",
@@ -92,18 +92,18 @@ impl<'a> Inspection<'a> {
         let [a, b, c] = triangle.zeta.map(|zeta| format::fixed(zeta, 3));
         let diameter = format::length(triangle.diameter, self.unit());
         let mut rows = vec![
-            Row::text("Level · orientation", format!("{} · {orientation}", triangle.level)),
-            Row::new("Diameter", diameter, format::exact(triangle.diameter)).in_unit(self.unit()),
+            InspectorRow::text("Level · orientation", format!("{} · {orientation}", triangle.level)),
+            InspectorRow::new("Diameter", diameter, format::exact(triangle.diameter)).in_unit(self.unit()),
             self.point_row("Point", self.readout.point.to_array()),
         ];
         rows.extend(self.geographic_row());
-        rows.extend(where_on(self.readout.location).map(|on| Row::text("Lies", on)));
-        rows.push(Row::new("ζ₁ ζ₂ ζ₃", format!("{a} {b} {c}"), exact_list(&triangle.zeta)));
+        rows.extend(where_on(self.readout.location).map(|on| InspectorRow::text("Lies", on)));
+        rows.push(InspectorRow::new("ζ₁ ζ₂ ζ₃", format!("{a} {b} {c}"), exact_list(&triangle.zeta)));
         rows
     }
 
     /// Returns the chosen quantity at the vertices and at the point.
-    pub fn quantity_rows(&self) -> Vec<Row> {
+    pub fn quantity_rows(&self) -> Vec<InspectorRow> {
         let unit = match self.view.quantity {
             Quantity::TargetDiameter => self.unit(),
             Quantity::Risk => LengthUnit::None,
@@ -121,18 +121,22 @@ impl<'a> Inspection<'a> {
         let exact = format!("{exact} ({sign}{})", format::significant(difference.abs(), 2));
         let interpolated = unit.after(&number(triangle.interpolated));
         let rows = [
-            Row::new("At v₁ v₂ v₃", unit.after(&format!("{a} {b} {c}")), exact_list(&triangle.at_vertices)),
-            Row::new("Interpolated", interpolated, format::exact(triangle.interpolated)),
-            Row::new("True (difference)", exact, format::exact(triangle.exact)),
+            InspectorRow::new(
+                "At v₁ v₂ v₃",
+                unit.after(&format!("{a} {b} {c}")),
+                exact_list(&triangle.at_vertices),
+            ),
+            InspectorRow::new("Interpolated", interpolated, format::exact(triangle.interpolated)),
+            InspectorRow::new("True (difference)", exact, format::exact(triangle.exact)),
         ];
         rows.map(|row| row.in_unit(unit)).into()
     }
 
     /// Which layer decides h̄ at the point, and where gradation carries its diameter from.
-    pub fn decision_rows(&self) -> Vec<Row> {
+    pub fn decision_rows(&self) -> Vec<InspectorRow> {
         let decision = &self.readout.decision;
         let layers = &self.session.follower().settings().layers;
-        let mut rows = vec![Row::text("Decided by", decided_by(layers, decision))];
+        let mut rows = vec![InspectorRow::text("Decided by", decided_by(layers, decision))];
         if decision.from != self.readout.point {
             rows.push(self.point_row("Through gradation from", decision.from.to_array()));
         }
@@ -147,10 +151,9 @@ impl<'a> Inspection<'a> {
         let answer = |&(id, asked): &(LayerId, Option<f64>)| {
             let label = deciding_layer(layers, Some(id));
             let row = match asked {
-                Some(h) => {
-                    Row::new(label, format::length(h, self.unit()), format::exact(h)).in_unit(self.unit())
-                }
-                None => Row::text(label, "nothing"),
+                Some(h) => InspectorRow::new(label, format::length(h, self.unit()), format::exact(h))
+                    .in_unit(self.unit()),
+                None => InspectorRow::text(label, "nothing"),
             };
             LayerAnswer { row, decides: is_direct && decision.layer == Some(id) }
         };
@@ -158,7 +161,7 @@ impl<'a> Inspection<'a> {
     }
 
     /// Returns the corners, with their numbers in files.
-    pub fn corner_rows(&self) -> Vec<Row> {
+    pub fn corner_rows(&self) -> Vec<InspectorRow> {
         let corners = self.triangle.vertices.iter().zip(["v₁", "v₂", "v₃"]);
         let label = |name: &str, node: NodeId| format!("{name} · {}", self.number(node.index()));
         corners.map(|((node, place), name)| self.point_row(&label(name, *node), place.to_array())).collect()
@@ -167,25 +170,25 @@ impl<'a> Inspection<'a> {
     /// Returns all of it: a line for each value, in full and with its unit.
     pub fn full_text(&self) -> String {
         let triangle = self.triangle;
-        let mut rows = vec![Row::text("Triangle", self.plain_number(triangle.id.index()))];
+        let mut rows = vec![InspectorRow::text("Triangle", self.plain_number(triangle.id.index()))];
         rows.extend(self.place_rows());
         rows.extend(triangle.neighbours.iter().zip(NEIGHBOURS).map(|(neighbour, name)| {
             let number = neighbour.triangle().map(|id| self.plain_number(id.index()));
-            Row::text(name, number.unwrap_or_else(|| "none, at the boundary".into()))
+            InspectorRow::text(name, number.unwrap_or_else(|| "none, at the boundary".into()))
         }));
         let quantity = match self.view.quantity {
             Quantity::TargetDiameter => "h̄",
             Quantity::Risk => "risk",
         };
-        rows.push(Row::text("Quantity", quantity));
+        rows.push(InspectorRow::text("Quantity", quantity));
         for row in self.quantity_rows() {
             let label = if row.label.starts_with("True") { "True".into() } else { row.label };
-            rows.push(Row { label, ..row });
+            rows.push(InspectorRow { label, ..row });
         }
         rows.extend(self.decision_rows());
         rows.extend(self.layer_answers().into_iter().map(|LayerAnswer { row, .. }| {
             let label = format!("Layer {}", row.label);
-            Row { label, ..row }
+            InspectorRow { label, ..row }
         }));
         rows.extend(self.corner_rows());
         let lines = rows.iter().map(|row| format!("{}: {}\n", row.label, row.unit.after(&row.exact)));
@@ -193,17 +196,17 @@ impl<'a> Inspection<'a> {
     }
 
     /// Returns longitude and latitude of the point, where the domain lies on the Earth.
-    fn geographic_row(&self) -> Option<Row> {
+    fn geographic_row(&self) -> Option<InspectorRow> {
         let projection = self.session.document().settings().domain.projection?;
         let at = projection.geographic_from_plane(self.readout.point).to_array();
         let shown = at.map(|degrees| LengthUnit::Degree.after(&format::fixed(degrees, 5))).join(" ");
-        Some(Row::new("Longitude, latitude", shown, exact_list(&at)).in_unit(LengthUnit::Degree))
+        Some(InspectorRow::new("Longitude, latitude", shown, exact_list(&at)).in_unit(LengthUnit::Degree))
     }
 
-    fn point_row(&self, label: &str, point: [f64; 2]) -> Row {
+    fn point_row(&self, label: &str, point: [f64; 2]) -> InspectorRow {
         let step = self.view.world_per_px();
         let shown = point.map(|value| format::coordinate(value, step, self.unit())).join(" ");
-        Row::new(label, shown, exact_list(&point)).in_unit(self.unit())
+        InspectorRow::new(label, shown, exact_list(&point)).in_unit(self.unit())
     }
 }
 

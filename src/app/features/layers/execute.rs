@@ -55,7 +55,7 @@ impl Feature for LayerEditor {
             LayerCommand::AskName(id) => ask_name(id, ctx),
             LayerCommand::LimitGradation(limits) => {
                 ctx.session.end_gesture();
-                ctx.session.set(Setting::Gradation(limits.then_some(Settings::USUAL_GRADATION)));
+                ctx.session.set(Setting::Gradation(limits.then_some(Settings::DEFAULT_GRADATION)));
                 ctx.session.end_gesture();
             }
         }

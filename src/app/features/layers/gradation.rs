@@ -24,7 +24,7 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     if let Some(slope) = gradation {
         slope_row(ui, slope, commands);
     }
-    let other = if gradation.is_some() { None } else { Some(Settings::USUAL_GRADATION) };
+    let other = if gradation.is_some() { None } else { Some(Settings::DEFAULT_GRADATION) };
     let typed = SliderRow::typed_so_far(ui, SLOPE, "").filter(|_| gradation.is_some());
     let candidate = typed.map(Some).or((toggle.hovered() && !toggle.changed()).then_some(other));
     let kinds = [Setting::Gradation(None).kind()];
@@ -36,7 +36,7 @@ const SLOPE: &str = "Gradation g";
 
 fn slope_row(ui: &mut Ui, mut slope: f64, commands: &mut Vec<Command>) {
     let row = SliderRow::new(SLOPE, &mut slope, 0.02..=2.0).logarithmic();
-    let row = row.typed_range(f64::MIN_POSITIVE..=f64::MAX).default(Settings::USUAL_GRADATION);
+    let row = row.typed_range(f64::MIN_POSITIVE..=f64::MAX).default(Settings::DEFAULT_GRADATION);
     let help = "Largest change of h̄ per unit of length, over the whole stack: the smaller, the more slowly \
                 triangles grow with the distance from fine places.";
     let response = row.help(help).show(ui);

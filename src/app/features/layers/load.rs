@@ -189,7 +189,7 @@ pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) 
             let (to, extent, unit) = shapes_of(&file, plane.as_ref(), meter)?;
             let over = empty.and_then(|empty| empty.over(&file, with_space_around(extent), unit));
             let transfer = over.as_ref().map_or(transfer, |settings| settings.transfer);
-            let kind = LayerKind::distance_to(to, &transfer, Settings::USUAL_GRADATION);
+            let kind = LayerKind::distance_to(to, &transfer, Settings::DEFAULT_GRADATION);
             over.map_or_else(
                 || Ok(commands_to_add(kind.clone())),
                 |settings| show_with_layer(settings, kind.clone(), &file, &[]),

@@ -83,9 +83,9 @@ fn curve(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let risk = state.pointer.map(|point| value_at(point, document, follower, Quantity::Risk));
     let limits = DIAMETERS.start() * extent..=DIAMETERS.end() * extent;
     let editor = TransferCurve::new(&mut shown, &curve, limits, SHAPES);
-    let usual = Settings::default().transfer;
+    let default = Settings::default().transfer;
     let defaults =
-        CurveValues { h_max: usual.h_max * extent, h_risk: usual.h_risk * extent, shape: usual.shape };
+        CurveValues { h_max: default.h_max * extent, h_risk: default.h_risk * extent, shape: default.shape };
     let editor = editor.unit(settings.unit).defaults(defaults);
     let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
     if shown.h_max != h_max {

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::finder::Key;
+use super::finder::PathsKey;
 use super::prover::FoundPaths;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use meshbrush_core::path::{Alternatives, Difference, Solution};
 use meshbrush_mesh::geometry::nearest_on_segment;
 use meshbrush_mesh::mesh::Progress;
@@ -50,7 +50,7 @@ pub struct AlternativesFinder {
     paths: Vec<Solution>,
     running: Option<Job<Solution>>,
     /// The paths and the route that they belong to.
-    of: Option<(Key, usize)>,
+    of: Option<(PathsKey, usize)>,
 }
 
 impl AlternativesFinder {
@@ -96,7 +96,7 @@ impl AlternativesFinder {
     /// another path.
     pub(super) fn advance(
         &mut self,
-        of: (Key, usize),
+        of: (PathsKey, usize),
         (best, places): (&Solution, &[DVec2]),
         basis: &FoundPaths,
         jobs: &Jobs,
@@ -136,6 +136,6 @@ impl AlternativesFinder {
                 Err(_) => Progress::Done,
             }
         };
-        self.running = Some(jobs.start_in_slices(Kind::Compute, begin, advance));
+        self.running = Some(jobs.start_in_slices(JobKind::Compute, begin, advance));
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::finder::Key;
+use super::finder::PathsKey;
 
 /// The corridor: whether it is shown, how wide, and its outline.
 #[derive(Clone, Debug)]
@@ -15,7 +15,7 @@ pub struct ShownCorridor {
     pub share: f64,
     pub(super) lines: Arc<[Vec<DVec2>]>,
     /// The paths and the excess that the lines belong to.
-    pub(super) of: Option<(Key, f64)>,
+    pub(super) of: Option<(PathsKey, f64)>,
 }
 
 impl Default for ShownCorridor {
@@ -32,7 +32,7 @@ impl ShownCorridor {
     }
 
     /// Returns whether the lines are still to be found.
-    pub(super) fn is_due(&self, key: Key) -> bool {
+    pub(super) fn is_due(&self, key: PathsKey) -> bool {
         self.is_on && self.of != Some((key, self.share))
     }
 }

@@ -13,7 +13,7 @@ impl Paths {
         let Some(lines) = self.current_paths(ctx) else { return };
         let settings = ctx.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
-        let kind = LayerKind::corridor(lines, extent, &settings.transfer, Settings::USUAL_GRADATION);
+        let kind = LayerKind::corridor(lines, extent, &settings.transfer, Settings::DEFAULT_GRADATION);
         ctx.send(Command::from(LayerCommand::Add(Box::new(kind))));
         ctx.send(Command::from(EditCommand::EndGesture));
     }

@@ -94,8 +94,8 @@ impl Feature for Paths {
 
 impl Paths {
     fn export_path_as(&mut self, path: PathBuf, ctx: &mut Ctx<'_>) {
-        let usual = PathFormat::ENDINGS[0];
-        let path = if path.extension().is_none() { path.with_extension(usual) } else { path };
+        let default = PathFormat::ENDINGS[0];
+        let path = if path.extension().is_none() { path.with_extension(default) } else { path };
         let export = Command::from(PathCommand::Export(path.clone()));
         ctx.commands.extend(ctx.project.ask_to_replace(vec![path], export));
     }

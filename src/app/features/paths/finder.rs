@@ -18,7 +18,8 @@ use super::corridor::ShownCorridor;
 use super::front::FrontFinder;
 use super::prover::{FoundPaths, Prover};
 use super::work::{
-    FoundPath, KnownPlanner, PathWork, PlannedMesh, PlannerSource, ShownPath, Work, WorkResult, find_corridor,
+    FinishedWork, FoundPath, KnownPlanner, PathWork, PlannedMesh, PlannerSource, ShownPath, WorkResult,
+    find_corridor,
 };
 use crate::app::derivation::MeasuredMesh;
 use crate::app::document_id::DocumentId;
@@ -36,7 +37,7 @@ pub struct MeshKey {
 
 /// The data from which paths were computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Key {
+pub struct PathsKey {
     document: u64,
     pub mesh: MeshKey,
     /// Whether the document is being changed.
@@ -46,10 +47,10 @@ pub struct Key {
 /// Finds the paths of the document, and keeps the last ones.
 #[derive(Default)]
 pub struct PathFinder {
-    work: Slot<Key, Option<Work>>,
+    work: Slot<PathsKey, Option<FinishedWork>>,
     /// A planner, and the mesh that it knows.
     planner: Option<(KnownPlanner, MeshKey)>,
-    key: Option<Key>,
+    key: Option<PathsKey>,
     shown: Vec<ShownPath>,
     /// Whether it was said that a proof exchanged the path.
     told: Vec<bool>,
@@ -154,7 +155,7 @@ impl PathFinder {
     }
 
     /// Returns the data to compute paths from; `None` while the first mesh is not complete.
-    fn wanted(&self, session: &Session) -> Option<Key> {
+    fn wanted(&self, session: &Session) -> Option<PathsKey> {
         let (document, follower) = (session.document(), session.follower());
         let derivation = session.derivation();
         let is_settled =
@@ -169,10 +170,10 @@ impl PathFinder {
             }
         };
         let is_of_document = mesh.document_id == document_id;
-        is_of_document.then_some(Key { document: document.revision(), mesh, is_live: !is_settled })
+        is_of_document.then_some(PathsKey { document: document.revision(), mesh, is_live: !is_settled })
     }
 
-    fn start(&mut self, key: Key, session: &Session, jobs: &Jobs) {
+    fn start(&mut self, key: PathsKey, session: &Session, jobs: &Jobs) {
         let document = session.document();
         let (settings, paint) = (document.settings(), document.paint());
         let risk = RiskField::new(&settings.layers, paint).within(&settings.domain.bounds);
@@ -193,7 +194,7 @@ impl PathFinder {
     }
 
     /// Finds the corridor with the planner of the paths.
-    fn start_corridor(&mut self, key: Key, session: &Session, jobs: &Jobs) {
+    fn start_corridor(&mut self, key: PathsKey, session: &Session, jobs: &Jobs) {
         let share = self.corridor.share;
         self.corridor.of = Some((key, share));
         let Some((planner, _)) = self.planner.take() else { return self.corridor.lines = Arc::default() };
@@ -234,7 +235,7 @@ impl PathFinder {
     }
 
     /// Looks for the front and the alternatives of a complete path.
-    fn find_others(&mut self, session: &Session, of: (Key, usize), jobs: &Jobs) {
+    fn find_others(&mut self, session: &Session, of: (PathsKey, usize), jobs: &Jobs) {
         let Some(basis) = &self.basis else { return self.alternatives.clear() };
         self.front.advance(session, of, &basis.mesh, jobs);
         let shown = self.shown.get(of.1).filter(|shown| shown.problem.is_none());

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::finder::{Key, MeshKey};
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use super::finder::{MeshKey, PathsKey};
+use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
 use meshbrush_core::domain::{Domain, DomainShape};
@@ -64,7 +64,7 @@ pub struct FrontFinder {
     running: Option<Job<News>>,
     of: Option<FrontKey>,
     /// The paths and the route for which `of` was checked last.
-    checked: Option<(Key, usize)>,
+    checked: Option<(PathsKey, usize)>,
 }
 
 impl FrontFinder {
@@ -111,7 +111,7 @@ impl FrontFinder {
     pub(super) fn advance(
         &mut self,
         session: &Session,
-        (key, route): (Key, usize),
+        (key, route): (PathsKey, usize),
         mesh: &Arc<PathMesh>,
         jobs: &Jobs,
     ) {
@@ -152,6 +152,6 @@ impl FrontFinder {
             let news = News { points: front.points().to_vec(), remaining: front.remaining() };
             if output.send(news) && goes_on { Progress::More } else { Progress::Done }
         };
-        self.running = Some(jobs.start_in_slices(Kind::Compute, begin, advance));
+        self.running = Some(jobs.start_in_slices(JobKind::Compute, begin, advance));
     }
 }

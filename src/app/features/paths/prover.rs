@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::work::FoundPath;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
@@ -128,6 +128,6 @@ impl Prover {
             let goes_on = output.send(Proof { solution: certificate.solution(), end }) && end.is_none();
             if goes_on { Progress::More } else { Progress::Done }
         };
-        Some(Running { job: jobs.start_in_slices(Kind::Compute, begin, advance), stop })
+        Some(Running { job: jobs.start_in_slices(JobKind::Compute, begin, advance), stop })
     }
 }

@@ -24,7 +24,7 @@ const AT_ONCE: usize = 2048;
 const PROFILE_SAMPLES: usize = 200;
 
 /// The result of a job on paths. It returns the planner, which the next job uses again.
-pub(super) struct Work {
+pub(super) struct FinishedWork {
     pub planner: Option<KnownPlanner>,
     pub result: WorkResult,
 }
@@ -276,7 +276,7 @@ impl PathWork {
     }
 
     /// Takes the next step.
-    pub fn advance(&mut self) -> Slice<Option<Work>> {
+    pub fn advance(&mut self) -> Slice<Option<FinishedWork>> {
         match self.step() {
             Ok(ControlFlow::Continue(step)) => {
                 self.step = step;
@@ -287,12 +287,12 @@ impl PathWork {
             Err(problem) => {
                 let routes = self.plan.routes.iter().map(|_| Err(problem.clone())).collect();
                 let result = WorkResult::Paths { density: None, routes };
-                Slice::Found(Some(Work { planner: None, result }))
+                Slice::Found(Some(FinishedWork { planner: None, result }))
             }
         }
     }
 
-    fn step(&mut self) -> Result<ControlFlow<Option<Work>, PathStep>, PathError> {
+    fn step(&mut self) -> Result<ControlFlow<Option<FinishedWork>, PathStep>, PathError> {
         let Self { plan, risk, domain, density, is_live, .. } = self;
         Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, PathStep::Done) {
             PathStep::Start(PlannerSource { known, mesh: Some(mesh) }) => {
@@ -382,10 +382,10 @@ impl PathWork {
         PathStep::Begin(known)
     }
 
-    fn work(&mut self, planner: KnownPlanner) -> Work {
+    fn work(&mut self, planner: KnownPlanner) -> FinishedWork {
         let routes = std::mem::take(&mut self.found);
         let result = WorkResult::Paths { density: Some(self.density.clone()), routes };
-        Work { planner: Some(planner), result }
+        FinishedWork { planner: Some(planner), result }
     }
 }
 
@@ -395,7 +395,7 @@ fn request(is_live: bool) -> PathRequest {
 
 /// Finds the lines around the corridor of all routes: the places on paths that cost more than the best of
 /// their route by at most `share`. Routes without a path have none.
-pub(super) fn find_corridor(mut known: KnownPlanner, routes: &[Vec<DVec2>], share: f64) -> Work {
+pub(super) fn find_corridor(mut known: KnownPlanner, routes: &[Vec<DVec2>], share: f64) -> FinishedWork {
     let KnownPlanner { planner, corridor, .. } = &mut known;
     let corridor = corridor.get_or_insert_with(|| {
         let corridors = routes.iter().filter_map(|places| planner.corridor(places).ok());
@@ -405,5 +405,5 @@ pub(super) fn find_corridor(mut known: KnownPlanner, routes: &[Vec<DVec2>], shar
         true => Vec::new(),
         false => corridor.outlines(planner.mesh(), share),
     };
-    Work { planner: Some(known), result: WorkResult::Corridor(lines) }
+    FinishedWork { planner: Some(known), result: WorkResult::Corridor(lines) }
 }

@@ -44,7 +44,7 @@ fn load(path: &Path, ctx: &mut Ctx<'_>) {
         let over = empty.and_then(|empty| empty.over(&file, extent, LengthUnit::None));
         let bounds = placed.unwrap_or(if over.is_some() { extent } else { bounds });
         let (name, picture) = (name_of(&file), Arc::new(picture));
-        let shown = Some(Background { name, picture, bounds, opacity: Background::USUAL_OPACITY });
+        let shown = Some(Background { name, picture, bounds, opacity: Background::DEFAULT_OPACITY });
         match over {
             Some(settings) => {
                 match show_over_extent(Settings { background: shown, ..settings }, &file, &[]) {

@@ -63,7 +63,7 @@ impl TracedCurves {
             false => Parts::default(),
         };
         let begin = move || {
-            let tracing = CurveTracing::new(spec, parts, norm, CurveTracing::USUAL_MOST);
+            let tracing = CurveTracing::new(spec, parts, norm, CurveTracing::DEFAULT_MOST);
             Some((tracing, Pace::default()))
         };
         let trace = move |(tracing, pace): &mut (CurveTracing, Pace)| {

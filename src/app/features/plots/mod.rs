@@ -19,7 +19,7 @@ pub use panel::{HEIGHT, PLOTS, measuring};
 
 use crate::app::background::{Aim, Background, exported};
 use crate::app::derivation::MeasuredMesh;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Slot, Taken, Wanted};
+use crate::app::jobs::{Job, JobKind, Jobs, Output, Slot, Taken, Wanted};
 use crate::app::session::Session;
 use meshbrush_cli::cli::RunClock;
 use meshbrush_core::build::RefinementCriterion;
@@ -221,7 +221,7 @@ impl Plots {
             let goes_on = output.is_wanted() && output.send(run.map(|run| (round, run))) && !failed;
             if goes_on { Progress::More } else { Progress::Done }
         };
-        self.measuring = Some(jobs.start_in_slices(Kind::Compute, || Some(order), measure));
+        self.measuring = Some(jobs.start_in_slices(JobKind::Compute, || Some(order), measure));
     }
 
     /// Ends the experiment. What was measured stays.

@@ -129,7 +129,7 @@ fn add_layer_of(shape: &DrawnShape, ctx: &mut Ctx<'_>) {
     };
     let to = DistanceTo::Shapes { name: String::new(), shapes };
     let transfer = &ctx.session.document().settings().transfer;
-    let kind = LayerKind::distance_to(to, transfer, Settings::USUAL_GRADATION);
+    let kind = LayerKind::distance_to(to, transfer, Settings::DEFAULT_GRADATION);
     let id = ctx.session.insert_layer(kind);
     ctx.session.document_mut().activate_layer(id);
 }

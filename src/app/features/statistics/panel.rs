@@ -12,7 +12,7 @@ use meshbrush_ui::theme::metrics;
 use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
 
 /// Rows of the figures of a mesh in one part.
-const USUAL_ROWS: f32 = 9.0;
+const DEFAULT_ROWS: f32 = 9.0;
 /// Connected parts with a row of their own.
 const MOST_PARTS: usize = 5;
 
@@ -29,7 +29,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
         let Some((measured, _)) = figures else {
             // The room that the figures will take: opening the section brings all of it into view.
-            ui.set_min_height(USUAL_ROWS * (metrics::ROW + metrics::ROW_GAP));
+            ui.set_min_height(DEFAULT_ROWS * (metrics::ROW + metrics::ROW_GAP));
             value_row(ui, "Mesh", "being measured");
             return;
         };

@@ -137,7 +137,7 @@ fn stage_rows(ui: &mut Ui, player: &StepPlayer, stage: &StepStage) {
 }
 
 fn triangle_rows(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
-    // Everything about a step is in sight in a window of the usual height.
+    // Everything about a step is in sight in a window of the default height.
     ui.spacing_mut().item_spacing.y = 0.0;
     let stack = player.stack_in_words();
     if let Some(step) = player.step().filter(|step| step.triangle > 0) {

@@ -11,9 +11,9 @@ use crate::app::notices::Offer;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Threat, ThreatLaw, Threats};
 
 /// Range of the first threat, as a share of the longer side of the domain.
-const USUAL_RANGE: f64 = 0.15;
+const DEFAULT_RANGE: f64 = 0.15;
 /// Peak of the first threat.
-const USUAL_PEAK: f64 = 0.8;
+const DEFAULT_PEAK: f64 = 0.8;
 
 impl Feature for ThreatEditor {
     type Command = ThreatsCommand;
@@ -87,9 +87,10 @@ impl ThreatEditor {
         let Some((id, threats)) = editable_threats(ctx) else { return };
         let document = ctx.session.document();
         let extent = document.settings().domain.bounds.size().max_element();
-        let usual = Threat { at, range: USUAL_RANGE * extent, peak: USUAL_PEAK, law: ThreatLaw::default() };
+        let default =
+            Threat { at, range: DEFAULT_RANGE * extent, peak: DEFAULT_PEAK, law: ThreatLaw::default() };
         let selected = self.selected_in(document).map(|number| threats.list()[number]);
-        let threat = Threat { at, ..selected.unwrap_or(usual) };
+        let threat = Threat { at, ..selected.unwrap_or(default) };
         let list = threats.list().iter().copied().chain([threat]).collect();
         ctx.session.end_gesture();
         replace_threats(id, list, ctx);

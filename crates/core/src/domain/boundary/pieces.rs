@@ -39,13 +39,13 @@ impl BoundaryPiece {
 
     /// Returns what it is for a solver: the type that was set, or else the default one.
     pub fn boundary_type(&self) -> BoundaryType {
-        self.set_type.unwrap_or_else(|| self.usual_type())
+        self.set_type.unwrap_or_else(|| self.default_type())
     }
 
     /// Returns what it is for a solver if nothing was set: open if it lies along the frame
     /// ([`BoundaryKind::Open`]), and land elsewhere. A name that was given decides against that if it begins
     /// with `open` or with `land`, in upper or lower case.
-    pub fn usual_type(&self) -> BoundaryType {
+    pub fn default_type(&self) -> BoundaryType {
         let of_name = if self.is_named { BoundaryType::from_name(&self.name) } else { None };
         let of_kind = if self.kind == BoundaryKind::Open { BoundaryType::Open } else { BoundaryType::Land };
         of_name.unwrap_or(of_kind)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::functions::Third;
 use super::{ParseError, Program, derivatives, gradient, interval, machine, parser};
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 use crate::geometry::Rect;
 
 /// A formula in x, y and `risk`: a cost per unit of length.
@@ -61,7 +61,7 @@ impl CostFormula {
     }
 
     /// Returns a model of [`Self::eval`] over a rectangle, from models of the coordinates and of the risk.
-    pub(crate) fn model(&self, [x, y]: [Quadratic; 2], risk: Quadratic) -> Quadratic {
+    pub(crate) fn model(&self, [x, y]: [TaylorModel; 2], risk: TaylorModel) -> TaylorModel {
         machine::run(&self.program, [x, y, risk])
     }
 

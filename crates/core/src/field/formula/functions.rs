@@ -6,7 +6,7 @@ use super::derivatives::Varying;
 use super::gradient::{Along, Gradient};
 use super::program::{Op, max, min};
 use super::{function_bounds as bounds, models, slopes};
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 
 /// How a function's values become instructions.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +54,7 @@ pub(super) struct OfOne {
     /// Computes bounds of the derivative from bounds of the argument and of the result, if it is known.
     pub slope: Option<fn(Bounds, Bounds) -> Bounds>,
     /// A model of the values, if there is a better one than bounds.
-    pub model: Option<fn(&Quadratic) -> Quadratic>,
+    pub model: Option<fn(&TaylorModel) -> TaylorModel>,
 }
 
 /// Computes values and gradient of a function from those of its two arguments and bounds of the result.
@@ -88,7 +88,7 @@ pub(super) struct OfTwo {
     pub derivative: Option<OfTwoDerivative>,
     /// Whether it is `pow`, and so with the exponent 1/2 a square root.
     pub is_power: bool,
-    pub model: Option<fn(&Quadratic, &Quadratic) -> Quadratic>,
+    pub model: Option<fn(&TaylorModel, &TaylorModel) -> TaylorModel>,
 }
 
 /// A function of three values.
@@ -98,7 +98,7 @@ pub(super) struct OfThree {
     pub bounds: fn(Bounds, Bounds, Bounds) -> Bounds,
     /// The gradient, if it is known.
     pub derivative: OfThreeDerivative,
-    pub model: Option<fn(&Quadratic, &Quadratic, &Quadratic) -> Quadratic>,
+    pub model: Option<fn(&TaylorModel, &TaylorModel, &TaylorModel) -> TaylorModel>,
 }
 
 const fn of_one(value: fn(f64) -> f64, bounds: fn(Bounds) -> Bounds) -> OfOne {
@@ -110,7 +110,11 @@ const fn of_two(value: fn(f64, f64) -> f64, bounds: fn(Bounds, Bounds) -> Bounds
 }
 
 impl OfOne {
-    const fn smooth(self, slope: fn(Bounds, Bounds) -> Bounds, model: fn(&Quadratic) -> Quadratic) -> Self {
+    const fn smooth(
+        self,
+        slope: fn(Bounds, Bounds) -> Bounds,
+        model: fn(&TaylorModel) -> TaylorModel,
+    ) -> Self {
         Self { slope: Some(slope), model: Some(model), ..self }
     }
 }
@@ -119,12 +123,12 @@ impl OfTwo {
     const fn smooth(
         self,
         derivative: OfTwoDerivative,
-        model: fn(&Quadratic, &Quadratic) -> Quadratic,
+        model: fn(&TaylorModel, &TaylorModel) -> TaylorModel,
     ) -> Self {
         Self { derivative: Some(derivative), model: Some(model), ..self }
     }
 
-    const fn modelled(self, model: fn(&Quadratic, &Quadratic) -> Quadratic) -> Self {
+    const fn modelled(self, model: fn(&TaylorModel, &TaylorModel) -> TaylorModel) -> Self {
         Self { model: Some(model), ..self }
     }
 }

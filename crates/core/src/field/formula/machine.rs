@@ -4,8 +4,8 @@ use super::functions::OfThree;
 use super::program::{Compare, LARGE_STACK, Op, Program, SMALL_STACK};
 use crate::field::Bounds;
 
-/// A description of the values of a part of a formula over a rectangle: bounds, bounds with derivatives, or a
-/// model.
+/// An enclosure of the values of a part of a formula over a rectangle: bounds, bounds with derivatives, or a
+/// Taylor model.
 pub(super) trait Enclosure: Copy {
     /// Returns the description that follows from bounds alone.
     fn from_bounds(bounds: Bounds) -> Self;

@@ -61,7 +61,7 @@ pub use parser::{MAX_LENGTH, MAX_NESTING};
 pub use pointer::draw_pointer;
 use program::{Op, Program};
 
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 use crate::geometry::Rect;
 
 /// A formula in x and y, compiled once and evaluated many times.
@@ -179,8 +179,8 @@ impl Formula {
     }
 
     /// Returns a model of [`Self::eval`] over a rectangle, from models of the coordinates.
-    pub(crate) fn model(&self, [x, y]: [Quadratic; 2]) -> Quadratic {
-        machine::run(&self.program, [x, y, Quadratic::UNKNOWN])
+    pub(crate) fn model(&self, [x, y]: [TaylorModel; 2]) -> TaylorModel {
+        machine::run(&self.program, [x, y, TaylorModel::UNKNOWN])
     }
 
     /// Returns the number of instructions.

@@ -2,12 +2,13 @@ use glam::{DVec2, dvec2};
 
 use super::Formula;
 use super::bounds_tests::{grown, simple_formulas};
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 
 /// Returns a model of a formula over a square.
-fn model(formula: &Formula, middle: DVec2, half: f64) -> Quadratic {
-    let rest = f64::EPSILON * (middle.abs() + half);
-    let coordinates = [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half, rest[axis]));
+fn model(formula: &Formula, middle: DVec2, half: f64) -> TaylorModel {
+    let remainder = f64::EPSILON * (middle.abs() + half);
+    let coordinates =
+        [0, 1].map(|axis: usize| TaylorModel::coordinate(axis, middle[axis], half, remainder[axis]));
     formula.model(coordinates)
 }
 
@@ -98,8 +99,8 @@ fn the_rest_shrinks_with_the_third_power_of_the_side() {
     ];
     for source in smooth {
         let formula: Formula = source.parse().unwrap();
-        let rest = |half: f64| model(&formula, dvec2(0.61, 0.87), half).rest();
-        let (coarse, fine) = (rest(1e-2), rest(1e-4));
+        let remainder = |half: f64| model(&formula, dvec2(0.61, 0.87), half).remainder();
+        let (coarse, fine) = (remainder(1e-2), remainder(1e-4));
         assert!(coarse < 1e-3 && fine < 2e-6 * coarse, "{source}: {coarse:e}, {fine:e}");
     }
 }
@@ -110,6 +111,6 @@ fn numbers_and_decided_choices_are_exact() {
         ["if(x < 2, 0.0125, sin(x))", "max(0.0125, x - 9)", "clamp(x, 3, 0.0125)", "step(x, 5)*0.0125"]
     {
         let formula: Formula = source.parse().unwrap();
-        assert_eq!(model(&formula, dvec2(0.5, 0.5), 0.5), Quadratic::constant(0.0125), "{source}");
+        assert_eq!(model(&formula, dvec2(0.5, 0.5), 0.5), TaylorModel::constant(0.0125), "{source}");
     }
 }

@@ -1,4 +1,4 @@
-//! Runs a compiled formula on quadratic models of its values over a rectangle.
+//! Runs a compiled formula on Taylor models of its values over a rectangle.
 
 use std::f64::consts::{FRAC_PI_2, LN_2, LN_10};
 
@@ -6,9 +6,9 @@ use super::functions::OfThree;
 use super::interval;
 use super::machine::Enclosure;
 use super::program::Op;
-use crate::field::{Bounds, Quadratic};
+use crate::field::{Bounds, TaylorModel};
 
-impl Enclosure for Quadratic {
+impl Enclosure for TaylorModel {
     fn from_bounds(bounds: Bounds) -> Self {
         Self::from_bounds(bounds)
     }
@@ -52,7 +52,7 @@ impl Enclosure for Quadratic {
     }
 
     fn either(self, other: Self) -> Self {
-        Quadratic::either(&self, &other)
+        TaylorModel::either(&self, &other)
     }
 }
 
@@ -61,112 +61,112 @@ fn size(bounds: Bounds) -> f64 {
     bounds.least.abs().max(bounds.greatest.abs())
 }
 
-pub(super) fn exp(a: &Quadratic) -> Quadratic {
+pub(super) fn exp(a: &TaylorModel) -> TaylorModel {
     let value = libm::exp(a.middle());
     a.composed([value, value, 0.5 * value], libm::exp(a.bounds().greatest) / 6.0, 0.0)
 }
 
-pub(super) fn ln(a: &Quadratic) -> Quadratic {
+pub(super) fn ln(a: &TaylorModel) -> TaylorModel {
     logarithm(a, libm::log, 1.0)
 }
 
-pub(super) fn log2(a: &Quadratic) -> Quadratic {
+pub(super) fn log2(a: &TaylorModel) -> TaylorModel {
     logarithm(a, libm::log2, LN_2)
 }
 
-pub(super) fn log10(a: &Quadratic) -> Quadratic {
+pub(super) fn log10(a: &TaylorModel) -> TaylorModel {
     logarithm(a, libm::log10, LN_10)
 }
 
 /// Returns a logarithm, and the natural logarithm of its base.
-fn logarithm(a: &Quadratic, function: fn(f64) -> f64, of_base: f64) -> Quadratic {
+fn logarithm(a: &TaylorModel, function: fn(f64) -> f64, of_base: f64) -> TaylorModel {
     let Bounds { least, .. } = a.bounds();
     if least <= 0.0 {
-        return Quadratic::UNKNOWN;
+        return TaylorModel::UNKNOWN;
     }
     let slope = 1.0 / (a.middle() * of_base);
     let third = 1.0 / (3.0 * of_base * least * least * least);
     a.composed([function(a.middle()), slope, -0.5 * slope / a.middle()], third, 0.0)
 }
 
-pub(super) fn sin(a: &Quadratic) -> Quadratic {
+pub(super) fn sin(a: &TaylorModel) -> TaylorModel {
     let (sine, cosine) = libm::sincos(a.middle());
     wave(a, sine, cosine)
 }
 
-pub(super) fn cos(a: &Quadratic) -> Quadratic {
+pub(super) fn cos(a: &TaylorModel) -> TaylorModel {
     let (sine, cosine) = libm::sincos(a.middle());
     wave(a, cosine, -sine)
 }
 
 /// Returns sine or cosine, from its value and its derivative in the middle.
-fn wave(a: &Quadratic, value: f64, slope: f64) -> Quadratic {
+fn wave(a: &TaylorModel, value: f64, slope: f64) -> TaylorModel {
     let Bounds { least, greatest, valid } = a.bounds();
     if !valid {
-        return Quadratic::UNKNOWN;
+        return TaylorModel::UNKNOWN;
     }
     // The third derivative is minus the first, which changes at most as much as the angle.
     let third = (slope.abs() + (greatest - least)).min(1.0) / 6.0;
     a.composed([value, slope, -0.5 * value], third, 0.0)
 }
 
-pub(super) fn tan(a: &Quadratic) -> Quadratic {
+pub(super) fn tan(a: &TaylorModel) -> TaylorModel {
     sin(a).over(&cos(a))
 }
 
-pub(super) fn sinh(a: &Quadratic) -> Quadratic {
+pub(super) fn sinh(a: &TaylorModel) -> TaylorModel {
     let (sine, cosine) = (libm::sinh(a.middle()), libm::cosh(a.middle()));
     a.composed([sine, cosine, 0.5 * sine], libm::cosh(size(a.bounds())) / 6.0, 0.0)
 }
 
-pub(super) fn cosh(a: &Quadratic) -> Quadratic {
+pub(super) fn cosh(a: &TaylorModel) -> TaylorModel {
     let (sine, cosine) = (libm::sinh(a.middle()), libm::cosh(a.middle()));
     a.composed([cosine, sine, 0.5 * cosine], libm::cosh(size(a.bounds())) / 6.0, 0.0)
 }
 
 /// Returns a bound of the error of a function's slope over the whole rectangle, if the slope is a difference
 /// of numbers up to 1.
-fn cancelled(a: &Quadratic) -> f64 {
+fn cancelled(a: &TaylorModel) -> f64 {
     let Bounds { least, greatest, .. } = a.bounds();
     let step = greatest - least;
     32.0 * f64::EPSILON * (step + step * step)
 }
 
-pub(super) fn tanh(a: &Quadratic) -> Quadratic {
+pub(super) fn tanh(a: &TaylorModel) -> TaylorModel {
     let value = libm::tanh(a.middle());
     let slope = 1.0 - value * value;
     // The third derivative is at most 2.
     a.composed([value, slope, -value * slope], 1.0 / 3.0, cancelled(a))
 }
 
-pub(super) fn atan(a: &Quadratic) -> Quadratic {
+pub(super) fn atan(a: &TaylorModel) -> TaylorModel {
     let slope = 1.0 / (1.0 + a.middle() * a.middle());
     // The third derivative is at most 2.
     a.composed([libm::atan(a.middle()), slope, -a.middle() * slope * slope], 1.0 / 3.0, 0.0)
 }
 
 /// Returns the angle of a direction that is not near the negative x axis, where it jumps.
-pub(super) fn atan2(y: &Quadratic, x: &Quadratic) -> Quadratic {
+pub(super) fn atan2(y: &TaylorModel, x: &TaylorModel) -> TaylorModel {
     if x.bounds().least > 0.0 {
         return atan(&y.over(x));
     }
     let quarter = match y.bounds() {
         Bounds { least, .. } if least > 0.0 => FRAC_PI_2,
         Bounds { greatest, .. } if greatest < 0.0 => -FRAC_PI_2,
-        _ => return Quadratic::UNKNOWN,
+        _ => return TaylorModel::UNKNOWN,
     };
-    Quadratic::constant(quarter).minus(&atan(&x.over(y)))
+    TaylorModel::constant(quarter).minus(&atan(&x.over(y)))
 }
 
-pub(super) fn hypot(a: &Quadratic, b: &Quadratic) -> Quadratic {
+pub(super) fn hypot(a: &TaylorModel, b: &TaylorModel) -> TaylorModel {
     a.squared().plus(&b.squared()).sqrt()
 }
 
 /// exp(−(d/s)²/2).
-pub(super) fn gauss(d: &Quadratic, s: &Quadratic) -> Quadratic {
+pub(super) fn gauss(d: &TaylorModel, s: &TaylorModel) -> TaylorModel {
     let share = d.over(s);
     if !s.is_constant() {
-        return exp(&share.squared().times(&Quadratic::constant(-0.5)));
+        return exp(&share.squared().times(&TaylorModel::constant(-0.5)));
     }
     let t = share.middle();
     let value = libm::exp(-0.5 * t * t);
@@ -178,7 +178,7 @@ pub(super) fn gauss(d: &Quadratic, s: &Quadratic) -> Quadratic {
 }
 
 /// Returns a power with a constant exponent, or of a positive base.
-pub(super) fn power(a: &Quadratic, b: &Quadratic) -> Quadratic {
+pub(super) fn power(a: &TaylorModel, b: &TaylorModel) -> TaylorModel {
     if !b.is_constant() {
         return exp(&b.times(&ln(a)));
     }
@@ -189,7 +189,7 @@ pub(super) fn power(a: &Quadratic, b: &Quadratic) -> Quadratic {
     let Bounds { least, greatest, .. } = a.bounds();
     let is_smooth = least > 0.0 || (n.fract() == 0.0 && (n >= 0.0 || greatest < 0.0));
     if !is_smooth {
-        return Quadratic::UNKNOWN;
+        return TaylorModel::UNKNOWN;
     }
     // A factor of 0 ends the series.
     let term = |factor: f64, t: f64, exponent: f64| match factor {
@@ -202,25 +202,25 @@ pub(super) fn power(a: &Quadratic, b: &Quadratic) -> Quadratic {
     a.composed(series, third[0].max(third[1]), 0.0)
 }
 
-pub(super) fn clamp(v: &Quadratic, lo: &Quadratic, hi: &Quadratic) -> Quadratic {
+pub(super) fn clamp(v: &TaylorModel, lo: &TaylorModel, hi: &TaylorModel) -> TaylorModel {
     v.max(lo).min(hi)
 }
 
-pub(super) fn mix(a: &Quadratic, b: &Quadratic, t: &Quadratic) -> Quadratic {
-    a.times(&Quadratic::constant(1.0).minus(t)).plus(&b.times(t))
+pub(super) fn mix(a: &TaylorModel, b: &TaylorModel, t: &TaylorModel) -> TaylorModel {
+    a.times(&TaylorModel::constant(1.0).minus(t)).plus(&b.times(t))
 }
 
 /// Returns a model for values between the limits. Beyond them, bounds show that the value is 0 or 1.
-pub(super) fn smoothstep(lo: &Quadratic, hi: &Quadratic, v: &Quadratic) -> Quadratic {
+pub(super) fn smoothstep(lo: &TaylorModel, hi: &TaylorModel, v: &TaylorModel) -> TaylorModel {
     let span = hi.minus(lo);
     let Bounds { least, greatest, .. } = span.bounds();
     if least <= 0.0 && greatest >= 0.0 {
-        return Quadratic::UNKNOWN;
+        return TaylorModel::UNKNOWN;
     }
     let share = v.minus(lo).over(&span);
     let Bounds { least, greatest, .. } = share.bounds();
     if !(least >= 0.0 && greatest <= 1.0) {
-        return Quadratic::UNKNOWN;
+        return TaylorModel::UNKNOWN;
     }
-    share.squared().times(&Quadratic::constant(3.0).minus(&share.times(&Quadratic::constant(2.0))))
+    share.squared().times(&TaylorModel::constant(3.0).minus(&share.times(&TaylorModel::constant(2.0))))
 }

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
+use crate::field::{Bounds, Formula, TaylorModel, f32_not_below};
 use crate::geometry::{Lattice, Rect};
-use crate::layers::models::{self, BoundedModel, ModelId, ModelPlace};
+use crate::layers::models::{self, BoundedModel, ModelDomain, ModelId};
 use crate::layers::near_segments::near;
 use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
@@ -13,7 +13,7 @@ use super::cells::{Cells, Cut};
 use super::compiled::Carried;
 use super::cone::Cone;
 use super::convex::Convex;
-use super::patch::Patch;
+use super::patch::TouchedCells;
 use super::steepness::Slopes;
 
 /// A function of the point, and what its values mean.
@@ -164,12 +164,12 @@ impl Function {
         }
     }
 
-    fn model(&self, place: &ModelPlace) -> BoundedModel {
+    fn model(&self, place: &ModelDomain) -> BoundedModel {
         match self {
             Self::Formula(formula) => BoundedModel::of(formula.model(place.coordinates)),
             Self::Threats(threats) => threats.bounded_model(place),
             Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => {
-                BoundedModel::of(Quadratic::UNKNOWN)
+                BoundedModel::of(TaylorModel::UNKNOWN)
             }
         }
     }
@@ -325,7 +325,7 @@ impl Analytic {
     }
 
     /// Returns a narrower range of the values of some cells than [`Self::range`], if one is known.
-    pub fn range_in(&self, patch: &Patch, lattice: &Lattice) -> Option<ValueRange> {
+    pub fn range_in(&self, patch: &TouchedCells, lattice: &Lattice) -> Option<ValueRange> {
         let cut = patch.cut_centers(lattice);
         let bounds = match &self.function {
             Function::Distance { shapes, profile } => {
@@ -334,7 +334,7 @@ impl Analytic {
             }
             Function::Formula(_) | Function::Threats(_) if patch.is_small() => {
                 let centers = patch.cells.centers(lattice);
-                let place = ModelPlace::of_rectangle(&centers);
+                let place = ModelDomain::of_rectangle(&centers);
                 let BoundedModel { polynomial, bounds } = self.function.model(&place);
                 let corners = cut.unwrap_or(Convex::rect(centers.min, centers.max));
                 let corners = corners.corners().iter().map(|&corner| place.coordinates_of(corner));

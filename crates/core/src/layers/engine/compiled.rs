@@ -14,9 +14,9 @@ use super::analytic::{Analytic, Function};
 use super::asked::Share;
 use super::cells::{Cells, Cut};
 use super::cover::{Cover, share_in_mask};
-use super::patch::Patch;
+use super::patch::TouchedCells;
 use super::pixels::range_touching;
-use super::reading::{Answer, Diameters, Reading};
+use super::reading::{Diameters, RangeAnswer, Reading};
 use super::search::{RasterSearch, any_cell};
 use super::steepness::Slopes;
 use super::values::{Values, WithGaps};
@@ -197,7 +197,7 @@ impl CompiledLayer {
         lattice: &Lattice,
     ) -> bool {
         let mut ask = |cells: &Cells| {
-            let (answer, cut) = self.answer(paint, &Patch::touching(*cells, triangle), limit, lattice);
+            let (answer, cut) = self.answer(paint, &TouchedCells::touching(*cells, triangle), limit, lattice);
             (answer.asks, cut)
         };
         any_cell(triangle, around, &mut ask)
@@ -231,16 +231,16 @@ impl CompiledLayer {
     pub fn answer(
         &self,
         paint: &PaintLayers,
-        patch: &Patch,
+        patch: &TouchedCells,
         limit: usize,
         lattice: &Lattice,
-    ) -> (Answer, Option<Cut>) {
+    ) -> (RangeAnswer, Option<Cut>) {
         let (coverage, mask_cut) = self.coverage(&patch.cells, lattice);
         if coverage == Share::None {
-            return (Answer::NOTHING, None);
+            return (RangeAnswer::NOTHING, None);
         }
         let (range, cut) = self.range(paint, &patch.cells, lattice);
-        let Some(range) = range else { return (Answer::NOTHING, None) };
+        let Some(range) = range else { return (RangeAnswer::NOTHING, None) };
         let mut answer = self.reading.answer(range, limit);
         if answer.is_undecided()
             && let Values::Analytic(analytic) = &self.values
@@ -249,7 +249,7 @@ impl CompiledLayer {
             answer = self.reading.answer(range, limit);
         }
         if coverage == Share::Some {
-            answer = Answer { asks: answer.asks.masked(), present: answer.present.masked() };
+            answer = RangeAnswer { asks: answer.asks.masked(), present: answer.present.masked() };
         }
         (answer, mask_cut.or(cut).filter(|_| answer.is_undecided()))
     }

@@ -1,7 +1,8 @@
-//! The largest field that changes by no more than a given slope and never exceeds what the layers ask for:
+//! The Lipschitz regularization of h, its inf-convolution with g |·|: the largest field that changes by no
+//! more than a given slope g and never exceeds what the layers ask for,
 //! h̄(x) = min over y of h(y) + g |x − y|.
 //!
-//! Questions about it are searches through the lattice, best first (`BestFirst`): no cell of a rectangle
+//! It is evaluated by branch and bound through the lattice, best first (`BestFirst`): no cell of a rectangle
 //! carries less to x than the least h in the rectangle plus g times its distance from x. Two facts keep them
 //! short.
 //!
@@ -12,9 +13,9 @@
 //! does not increase h(y) + g |x − y|. So from any y one gets without loss to x itself, or to the border of
 //! a rectangle in which h is steeper than g, or jumps. Only such rectangles are divided.
 //!
-//! **Of those, only where h + g d can be least.** Where h + g d falls along one direction all over a
-//! rectangle, steps in this direction lead out of it without loss, too. So of a smooth hill that is steeper
-//! than g, only the surroundings of places are divided at which the slope towards x is g, and no other.
+//! **Of those, only where h + g d can be least.** Rectangles where h + g d decreases in one direction
+//! everywhere are not divided either: steps in this direction lead out of them without loss. So of a smooth
+//! hill that is steeper than g, only the surroundings of places where the slope towards x is g are divided.
 
 use glam::DVec2;
 
@@ -24,11 +25,11 @@ use crate::layers::PaintLayers;
 use super::cells::Cells;
 use super::cone::Cone;
 use super::parts::{KnownParts, LEAST_BITS, PartId};
-use super::place::{Place, Point, TriangleInWorld, gap, rect_of};
+use super::place::{ConvexSet, Point, TriangleInWorld, gap, rect_of};
 use super::stack::Stack;
 use super::steepness::Slopes;
 
-/// A comparison that has not ended after so many rectangles says that h̄ is not below.
+/// A comparison that has not ended after this number of rectangles says that h̄ is not below.
 const MOST_COMPARED: usize = 1 << 16;
 
 /// Parts whose bound is below the best known value by less than this share are not searched.
@@ -46,7 +47,7 @@ const QUICK: usize = 400;
 /// A value that is read quickly is above the least one by at most this share of it.
 const QUICK_TOLERANCE: f64 = 1e-3;
 
-/// A value that is read is the least that was found in so many rectangles.
+/// A value that is read is the least that was found in this number of rectangles.
 const MOST_READ: usize = 1 << 13;
 
 /// How near a value that is read is to the least one.
@@ -92,7 +93,7 @@ pub struct SearchedPart {
     pub distance: f64,
 }
 
-impl<P: Place> GradationSearch<'_, P> {
+impl<P: ConvexSet> GradationSearch<'_, P> {
     /// Returns squares that cover all values below `length`, which are at least `least`.
     pub fn start(
         &self,

@@ -3,8 +3,8 @@ use glam::{DVec2, dvec2};
 use super::KnownParts;
 use super::counting::Counting;
 use super::gradation::{self, Accuracy, GradationSearch};
-use super::parts::Square;
-use super::place::{Place, Point};
+use super::parts::LatticeSquare;
+use super::place::{ConvexSet, Point};
 use super::steepness::slopes;
 use crate::domain::{BoundaryMarks, Domain, Ring};
 use crate::field::{Formula, Transfer};
@@ -115,7 +115,7 @@ fn squares_that_are_left_out_have_no_least_value_inside() {
         for _ in 0..300 {
             let bits = random.u32(22..30);
             let [column, row] = [0, 0].map(|_| random.u32(0..1 << (30 - bits)));
-            let square = Square { bits, column, row };
+            let square = LatticeSquare { bits, column, row };
             let Some(cells) = square.cells(field.lattice().extent()) else { continue };
             let id = known.square(&field, paint, square);
             let Some((_, part)) = search.part(known, id, f64::INFINITY) else { continue };

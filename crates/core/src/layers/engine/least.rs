@@ -7,7 +7,7 @@ use crate::layers::PaintLayers;
 
 use super::gradation::{GradationSearch, SearchedPart, quarter_bits};
 use super::parts::KnownParts;
-use super::place::{Place, TriangleInWorld};
+use super::place::{ConvexSet, TriangleInWorld};
 use super::stack::Stack;
 
 /// The least h̄ in a closed triangle.

@@ -21,7 +21,7 @@ use super::steepness::{Slopes, slopes};
 
 /// The square of 2^bits lattice steps in a column and a row of such squares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Square {
+pub struct LatticeSquare {
     pub bits: u32,
     pub column: u32,
     pub row: u32,
@@ -33,7 +33,7 @@ pub const LEAST_BITS: u32 = 2;
 /// A square of 2^this steps covers every lattice.
 const MOST_BITS: u32 = 31;
 
-impl Square {
+impl LatticeSquare {
     /// Returns the cells of the square that lie on the lattice.
     #[inline]
     pub fn cells(&self, extent: LatticePoint) -> Option<Cells> {
@@ -87,7 +87,7 @@ const NONE: u32 = u32::MAX;
 
 /// The facts that are known about a part of the lattice.
 #[derive(Clone, Copy, Debug)]
-struct Known {
+struct KnownPart {
     /// First column and row, and one past the last ones. Without cells beside the lattice.
     min: [u32; 2],
     max: [u32; 2],
@@ -119,7 +119,7 @@ struct Known {
 /// what is known. Where paint has changed, [`Self::forget`] must be called.
 #[derive(Clone, Debug, Default)]
 pub struct KnownParts {
-    parts: Vec<Known>,
+    parts: Vec<KnownPart>,
     /// Bounds of the gradient of h̄ before gradation, in world units, and the layers that can count.
     slopes: Vec<(Slopes, Counting)>,
     /// The layers that are asked at all.
@@ -129,7 +129,7 @@ pub struct KnownParts {
 /// With this many parts everything is forgotten before the next question: 16 MB.
 const MOST_PARTS: usize = 1 << 16;
 
-impl Known {
+impl KnownPart {
     fn new(cells: Option<Cells>, bits: Option<u32>, around: u32) -> Self {
         let cells = cells.unwrap_or(Cells { min: [0; 2], max: [0; 2] });
         Self {
@@ -179,8 +179,8 @@ impl KnownParts {
     pub fn whole(&mut self, stack: &Stack) -> PartId {
         if self.parts.is_empty() {
             let extent = stack.lattice().extent();
-            let square = Square::whole(extent);
-            self.parts.push(Known::new(square.cells(extent), Some(square.bits), NONE));
+            let square = LatticeSquare::whole(extent);
+            self.parts.push(KnownPart::new(square.cells(extent), Some(square.bits), NONE));
         }
         PartId(ROOT as u32)
     }
@@ -193,18 +193,18 @@ impl KnownParts {
         cells: &Cells,
     ) -> impl Iterator<Item = PartId> + use<> {
         let mut found = [None; 4];
-        for (place, square) in found.iter_mut().zip(Square::covering(cells)) {
+        for (place, square) in found.iter_mut().zip(LatticeSquare::covering(cells)) {
             *place = Some(self.square(stack, paint, square));
         }
         found.into_iter().flatten()
     }
 
     /// Returns a square that is not larger than the whole lattice.
-    pub fn square(&mut self, stack: &Stack, paint: &PaintLayers, square: Square) -> PartId {
+    pub fn square(&mut self, stack: &Stack, paint: &PaintLayers, square: LatticeSquare) -> PartId {
         let mut part = self.whole(stack);
-        let whole = Square::whole(stack.lattice().extent());
+        let whole = LatticeSquare::whole(stack.lattice().extent());
         for bits in (square.bits..whole.bits).rev() {
-            let Square { column, row, .. } = square.around(bits);
+            let LatticeSquare { column, row, .. } = square.around(bits);
             let quarters = self.quarters(stack, paint, part);
             part = PartId(quarters + (column & 1) + 2 * (row & 1));
         }
@@ -215,15 +215,16 @@ impl KnownParts {
     fn quarters(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) -> u32 {
         // What counts here decides what is asked in the quarters.
         self.slopes(stack, paint, part);
-        let Known { quarters, min, bits, .. } = self.parts[part.0 as usize];
+        let KnownPart { quarters, min, bits, .. } = self.parts[part.0 as usize];
         if quarters != NONE {
             return quarters;
         }
         let bits = bits.map_or(LEAST_BITS, u32::from);
-        let square = Square { bits, column: min[0] >> bits, row: min[1] >> bits };
+        let square = LatticeSquare { bits, column: min[0] >> bits, row: min[1] >> bits };
         let first = self.parts.len() as u32;
         let extent = stack.lattice().extent();
-        let of_quarter = |square: Square| Known::new(square.cells(extent), Some(square.bits), part.0);
+        let of_quarter =
+            |square: LatticeSquare| KnownPart::new(square.cells(extent), Some(square.bits), part.0);
         self.parts.extend(square.quarters().map(of_quarter));
         self.parts[part.0 as usize].quarters = first;
         first
@@ -259,7 +260,7 @@ impl KnownParts {
         };
         let halves = cells.divided(cut?);
         let first = self.parts.len() as u32;
-        self.parts.extend(halves.map(|cells| Known::new(Some(cells), None, part.0)));
+        self.parts.extend(halves.map(|cells| KnownPart::new(Some(cells), None, part.0)));
         self.parts[part.0 as usize].halves = first;
         Some(first)
     }
@@ -289,7 +290,7 @@ impl KnownParts {
 
     #[cold]
     fn find(&mut self, stack: &Stack, paint: &PaintLayers, part: PartId) {
-        let Known { around, .. } = self.parts[part.0 as usize];
+        let KnownPart { around, .. } = self.parts[part.0 as usize];
         let counting =
             if around == NONE { self.counting } else { self.slopes(stack, paint, PartId(around)).1 };
         let found = self.cells(part).map(|cells| stack.diameters(paint, &cells, counting));

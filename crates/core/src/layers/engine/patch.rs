@@ -20,12 +20,12 @@ const SMALL: i64 = 16;
 
 /// The cells of a rectangle that touch a triangle, if there is one, and otherwise all of them.
 #[derive(Clone, Copy, Debug)]
-pub struct Patch<'a> {
+pub struct TouchedCells<'a> {
     pub cells: Cells,
     triangle: Option<&'a Octagon>,
 }
 
-impl<'a> Patch<'a> {
+impl<'a> TouchedCells<'a> {
     /// Returns the cells of a rectangle that touch a triangle.
     pub fn touching(cells: Cells, triangle: &'a Octagon) -> Self {
         Self { cells, triangle: Some(triangle) }
@@ -82,7 +82,7 @@ mod tests {
             let low = [0, 1].map(|axis: usize| random.i64(around.min[axis]..around.max[axis]));
             let high = [0, 1].map(|axis: usize| random.i64(low[axis]..around.max[axis]) + 1);
             let cells = Cells { min: low, max: high };
-            let patch = Patch::touching(cells, &triangle);
+            let patch = TouchedCells::touching(cells, &triangle);
             let Some(polygon) = patch.cut_centers(&lattice) else {
                 whole += 1;
                 continue;

@@ -7,7 +7,7 @@ use crate::geometry::{Lattice, LatticePoint, Octagon, Rect, nearest_on_segment};
 use super::cells::Cells;
 
 /// A closed convex set, in world units with the corner of the lattice as origin.
-pub trait Place {
+pub trait ConvexSet {
     /// Returns the smallest rectangle around the set.
     fn bounds(&self) -> Rect;
 
@@ -34,7 +34,7 @@ pub fn gap(a: &Rect, b: &Rect) -> f64 {
 /// A single point.
 pub struct Point(pub DVec2);
 
-impl Place for Point {
+impl ConvexSet for Point {
     fn bounds(&self) -> Rect {
         Rect::new(self.0, self.0)
     }
@@ -50,7 +50,7 @@ impl Place for Point {
 }
 
 /// A rectangle.
-impl Place for Rect {
+impl ConvexSet for Rect {
     fn bounds(&self) -> Rect {
         *self
     }
@@ -82,7 +82,7 @@ impl TriangleInWorld {
     }
 }
 
-impl Place for TriangleInWorld {
+impl ConvexSet for TriangleInWorld {
     fn bounds(&self) -> Rect {
         let [a, b, c] = self.corners;
         Rect::new(a.min(b).min(c), a.max(b).max(c))

@@ -43,14 +43,14 @@ pub enum Reading {
 
 /// The answer for the values of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Answer {
+pub struct RangeAnswer {
     /// The share of the points at which the values are below a limit.
     pub asks: Share,
     /// The share of the points at which the values have a target diameter.
     pub present: Share,
 }
 
-impl Answer {
+impl RangeAnswer {
     /// No target diameter anywhere.
     pub const NOTHING: Self = Self { asks: Share::None, present: Share::None };
 
@@ -106,31 +106,31 @@ impl Reading {
     /// Returns the answer for the values of a range: whether they are below a limit, and whether they have a
     /// target at all.
     #[inline]
-    pub fn answer(&self, range: ValueRange, limit: usize) -> Answer {
+    pub fn answer(&self, range: ValueRange, limit: usize) -> RangeAnswer {
         let ValueRange { least, greatest } = range;
         let asks = || self.question(limit).asks(range);
         match self {
             Self::Risk { nothing, .. } => {
-                Answer { asks: asks(), present: share(greatest > *nothing, least > *nothing) }
+                RangeAnswer { asks: asks(), present: share(greatest > *nothing, least > *nothing) }
             }
             Self::Diameter { .. } => {
-                Answer { asks: asks(), present: share(least < f32::INFINITY, greatest < f32::INFINITY) }
+                RangeAnswer { asks: asks(), present: share(least < f32::INFINITY, greatest < f32::INFINITY) }
             }
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } | Self::Depth { lengths, .. } => {
                 let diameters = self.diameters(range);
-                Answer { asks: diameters.share_below(lengths[limit]), present: diameters.present }
+                RangeAnswer { asks: diameters.share_below(lengths[limit]), present: diameters.present }
             }
         }
     }
 
     /// Returns the question whether values are below a limit, to be put to many ranges.
     #[inline]
-    pub fn question(&self, limit: usize) -> Question<'_> {
+    pub fn question(&self, limit: usize) -> ValueTest<'_> {
         match self {
-            Self::Risk { least, .. } => Question::AtLeast(least[limit]),
-            Self::Diameter { most } => Question::AtMost(most[limit]),
+            Self::Risk { least, .. } => ValueTest::AtLeast(least[limit]),
+            Self::Diameter { most } => ValueTest::AtMost(most[limit]),
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } | Self::Depth { lengths, .. } => {
-                Question::Below { reading: self, diameter: lengths[limit] }
+                ValueTest::Below { reading: self, diameter: lengths[limit] }
             }
         }
     }
@@ -203,7 +203,7 @@ impl Reading {
 
 /// Which values are below a certain limit.
 #[derive(Clone, Copy, Debug)]
-pub enum Question<'a> {
+pub enum ValueTest<'a> {
     /// Values that are at least this one.
     AtLeast(f32),
     /// Values that are at most this one.
@@ -212,7 +212,7 @@ pub enum Question<'a> {
     Below { reading: &'a Reading, diameter: f64 },
 }
 
-impl Question<'_> {
+impl ValueTest<'_> {
     /// Returns how many of the values of a range ask for more.
     #[inline]
     pub fn asks(self, range: ValueRange) -> Share {

@@ -8,7 +8,7 @@ use crate::raster::{ValueRange, ValueRanges};
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::pixels::range_touching;
-use super::reading::Question;
+use super::reading::ValueTest;
 
 /// Returns whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where
 /// `ask` says so.
@@ -28,9 +28,9 @@ pub fn any_cell(
     for _ in 0..MOST_IN_ORDER {
         let Some(cells) = left.pop() else { return false };
         match look(triangle, cells, ask) {
-            Part::Asks => return true,
-            Part::DoesNot => {}
-            Part::Undecided([low, high]) => left.extend([high, low]),
+            RectangleVerdict::Asks => return true,
+            RectangleVerdict::DoesNot => {}
+            RectangleVerdict::Undecided([low, high]) => left.extend([high, low]),
         }
     }
     any_cell_by_size(triangle, left, ask)
@@ -48,9 +48,9 @@ fn any_cell_by_size(
     for _ in 0..MOST_BY_SIZE {
         let Some((_, min, max)) = left.pop() else { return false };
         match look(triangle, Cells { min, max }, ask) {
-            Part::Asks => return true,
-            Part::DoesNot => {}
-            Part::Undecided(parts) => left.extend(parts.map(by_size)),
+            RectangleVerdict::Asks => return true,
+            RectangleVerdict::DoesNot => {}
+            RectangleVerdict::Undecided(parts) => left.extend(parts.map(by_size)),
         }
     }
     false
@@ -62,7 +62,7 @@ const MOST_IN_ORDER: usize = 1 << 15;
 const MOST_BY_SIZE: usize = 1 << 15;
 
 /// What is known of the cells of a rectangle that touch a triangle.
-enum Part {
+enum RectangleVerdict {
     Asks,
     DoesNot,
     /// These parts tell more.
@@ -76,16 +76,22 @@ thread_local! {
 }
 
 #[inline]
-fn look(triangle: &Octagon, cells: Cells, ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>)) -> Part {
+fn look(
+    triangle: &Octagon,
+    cells: Cells,
+    ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
+) -> RectangleVerdict {
     if !triangle.meets(&cells.octagon()) {
-        return Part::DoesNot;
+        return RectangleVerdict::DoesNot;
     }
     #[cfg(test)]
     LOOKED_AT.with(|looked_at| looked_at.set(looked_at.get() + 1));
     match ask(&cells) {
-        (Share::None, _) => Part::DoesNot,
-        (Share::All, _) => Part::Asks,
-        (Share::Some, cut) => Part::Undecided(cells.divided(cut.expect("an undecided rectangle has a cut"))),
+        (Share::None, _) => RectangleVerdict::DoesNot,
+        (Share::All, _) => RectangleVerdict::Asks,
+        (Share::Some, cut) => {
+            RectangleVerdict::Undecided(cells.divided(cut.expect("an undecided rectangle has a cut")))
+        }
     }
 }
 
@@ -93,7 +99,7 @@ fn look(triangle: &Octagon, cells: Cells, ask: &mut impl FnMut(&Cells) -> (Share
 pub struct RasterSearch<'a, R> {
     pub raster: &'a R,
     pub grid: &'a GridOnLattice,
-    pub question: Question<'a>,
+    pub question: ValueTest<'a>,
 }
 
 impl<R: ValueRanges> RasterSearch<'_, R> {
@@ -114,9 +120,9 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
                 match self.square((triangle, cells), scale, [x, y], || self.grid.square(scale, x, y)) {
-                    Square::Asks => return true,
-                    Square::DoesNot => {}
-                    Square::Undecided(square) => {
+                    SquareVerdict::Asks => return true,
+                    SquareVerdict::DoesNot => {}
+                    SquareVerdict::Undecided(square) => {
                         if may_read_pixels && let Some(range) = self.range_touching(triangle, cells) {
                             return self.question.asks(range) != Share::None;
                         }
@@ -142,22 +148,22 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         scale: i32,
         [x, y]: [i64; 2],
         cells: impl FnOnce() -> Cells,
-    ) -> Square {
+    ) -> SquareVerdict {
         // Most squares are decided by their values.
         let asks = self.question.asks(self.raster.range_anywhere(scale, [x, y]));
         if asks == Share::None {
-            return Square::DoesNot;
+            return SquareVerdict::DoesNot;
         }
         let cells = cells();
         let octagon = cells.octagon();
         // A square between two lattice lines has no cell.
         if cells.intersection(around).is_none() || !triangle.meets(&octagon) {
-            return Square::DoesNot;
+            return SquareVerdict::DoesNot;
         }
         if asks == Share::All || (self.question.is_monotone() && triangle.contains(&octagon)) {
-            return Square::Asks;
+            return SquareVerdict::Asks;
         }
-        Square::Undecided(cells)
+        SquareVerdict::Undecided(cells)
     }
 
     /// Returns the range of the pixels that touch the triangle, where that answers the question and they are
@@ -173,16 +179,16 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
             let (scale, place) = (scale - 1, [2 * x + i, 2 * y + j]);
             let quarter = || cells.quarter(middle, [i == 1, j == 1]);
             match self.square(around, scale, place, quarter) {
-                Square::Asks => true,
-                Square::DoesNot => false,
-                Square::Undecided(cells) => self.any_quarter(around, scale, place, &cells),
+                SquareVerdict::Asks => true,
+                SquareVerdict::DoesNot => false,
+                SquareVerdict::Undecided(cells) => self.any_quarter(around, scale, place, &cells),
             }
         })
     }
 }
 
 /// What is known of the pixels of a square that touch a triangle.
-enum Square {
+enum SquareVerdict {
     /// One of them asks for more.
     Asks,
     /// None does.

@@ -122,14 +122,14 @@ impl Slopes {
 }
 
 /// What layers ask for in some cells.
-struct Asked<'a> {
+struct AskedDiameters<'a> {
     /// The number of each layer that counts, the layer, and the diameters.
     layers: Vec<(usize, &'a CompiledLayer, Diameters)>,
     /// Whether the finest of all counts.
     is_minimum: bool,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> AskedDiameters<'a> {
     /// Asks the layers that can count, and takes those out of `counting` that do not: without a diameter in
     /// the cells, below a layer that replaces all of them, and floors below which nothing is.
     fn of(stack: &'a Stack, paint: &PaintLayers, cells: &Cells, counting: &mut Counting) -> Self {
@@ -166,7 +166,7 @@ pub fn slopes(
 ) -> (Slopes, Counting) {
     // Values on both sides of the border count.
     let cells = &cells.with_neighbours(stack.lattice().extent());
-    let Asked { layers: asked, is_minimum } = Asked::of(stack, paint, cells, &mut counting);
+    let AskedDiameters { layers: asked, is_minimum } = AskedDiameters::of(stack, paint, cells, &mut counting);
     let all = asked.iter().filter(|(_, _, diameters)| diameters.present == Share::All);
     let decides = all.map(|(_, _, diameters)| diameters.greatest).fold(f64::INFINITY, f64::min);
     for (number, _, diameters) in &asked {

@@ -255,7 +255,7 @@ impl<'a> MinorantSearch<'a> {
         if half.min_element() <= 0.0 {
             return None;
         }
-        let CostModel { coefficients, rest } = self.cost.model(rectangle)?;
+        let CostModel { coefficients, remainder } = self.cost.model(rectangle)?;
         let middle = rectangle.center();
         let plane = [self.plane.at(middle), self.plane.slope.x * half.x, self.plane.slope.y * half.y];
         let mut of_both = coefficients;
@@ -266,7 +266,7 @@ impl<'a> MinorantSearch<'a> {
         // Corners are rounded by some ulps.
         let steepest: f64 = 2.0 * of_both[1..].iter().map(|c| c.abs()).sum::<f64>();
         let moved = 8.0 * f64::EPSILON * ((middle.abs() + half) / half).max_element();
-        let bound = least - rest - ROUNDING * (size + rest) - steepest * moved;
+        let bound = least - remainder - ROUNDING * (size + remainder) - steepest * moved;
         (!bound.is_nan()).then_some(bound)
     }
 

@@ -89,7 +89,7 @@ const STRIP_LOSS: f64 = 20.0;
 /// would exceed it is not started. It is a count, so that every machine proves the same.
 const MOST_WORK: u64 = 700_000;
 /// The number of steps that the solver usually takes for a program.
-const USUAL_STEPS: u64 = 25;
+const DEFAULT_STEPS: u64 = 25;
 /// Number of programs in a row that hardly raise the bound after which the work ends.
 const MOST_IDLE: usize = 3;
 
@@ -269,7 +269,7 @@ impl Certificate {
     fn begin_program(&mut self) -> Result<Progress, PathError> {
         let kept = setup::reachable(&self.mesh, &self.task)?;
         let space = QuadraticSpace::new(&self.mesh, &kept.triangles);
-        if self.work + (space.nodes as u64) * USUAL_STEPS > MOST_WORK {
+        if self.work + (space.nodes as u64) * DEFAULT_STEPS > MOST_WORK {
             self.end = Some(CertificateEnd::TooLarge);
             return Ok(Progress::Done);
         }

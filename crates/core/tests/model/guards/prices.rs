@@ -13,14 +13,14 @@ use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 use super::spec;
 
 /// Settings that differ from others in the coarse grid, the domain or the treatment of its boundary alone.
-fn other_grids(usual: &Settings) -> [Settings; 3] {
+fn other_grids(default: &Settings) -> [Settings; 3] {
     let shape = DomainShape::Formula(Formula::parse("x > -9").unwrap());
-    let domain = Domain { shape, ..usual.domain.clone() };
-    assert_ne!(usual.boundary, BoundaryTreatment::Report);
+    let domain = Domain { shape, ..default.domain.clone() };
+    assert_ne!(default.boundary, BoundaryTreatment::Report);
     [
-        Settings { spacing: 0.5 * usual.spacing, ..usual.clone() },
-        Settings { domain, ..usual.clone() },
-        Settings { boundary: BoundaryTreatment::Report, ..usual.clone() },
+        Settings { spacing: 0.5 * default.spacing, ..default.clone() },
+        Settings { domain, ..default.clone() },
+        Settings { boundary: BoundaryTreatment::Report, ..default.clone() },
     ]
 }
 
@@ -28,13 +28,13 @@ fn other_grids(usual: &Settings) -> [Settings; 3] {
 fn there_is_no_estimate_where_the_coarse_grid_is_another() {
     let mut document = Document::new(Settings::default(), None).unwrap();
     let follower = Follower::new(&mut document).unwrap();
-    let usual = document.settings();
-    assert!(CountEstimate::new(usual, &follower).is_some());
-    for other in other_grids(usual) {
+    let default = document.settings();
+    assert!(CountEstimate::new(default, &follower).is_some());
+    for other in other_grids(default) {
         assert!(CountEstimate::new(&other, &follower).is_none(), "{other:?}");
     }
-    let [spacing, domain, _] = other_grids(usual);
-    for (settings, has_price) in [(usual.clone(), true), (spacing, false), (domain, false)] {
+    let [spacing, domain, _] = other_grids(default);
+    for (settings, has_price) in [(default.clone(), true), (spacing, false), (domain, false)] {
         let mut pricer = SizePricer::default();
         pricer.ask(Some(&settings), &document, &follower);
         assert_eq!(pricer.progress() == Progress::More, has_price, "{settings:?}");
@@ -72,7 +72,7 @@ fn goals_of_other_norms_stay() {
 fn the_usual_surface_is_a_hill_of_a_quarter_of_the_shorter_side() {
     for (size, width) in [(dvec2(8.0, 20.0), 2.0), (dvec2(400.0, 300.0), 50.0), (dvec2(0.02, 0.02), 0.005)] {
         let bounds = Rect::new(dvec2(3.0, -5.0), dvec2(3.0, -5.0) + size);
-        let LayerKind::Surface(surface) = LayerKind::usual_surface(&bounds) else { panic!("a surface") };
+        let LayerKind::Surface(surface) = LayerKind::default_surface(&bounds) else { panic!("a surface") };
         let SurfaceSource::Formula(formula) = &surface.source else { panic!("a formula") };
         for (away, height) in [(0.0, 1.0), (width, (-1.0_f64).exp()), (2.0 * width, (-4.0_f64).exp())] {
             let at = bounds.center() + dvec2(0.6, -0.8) * away;

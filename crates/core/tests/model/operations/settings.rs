@@ -103,7 +103,9 @@ fn impossible(choices: &mut impl Choices) -> Setting {
         2 => Setting::TransferShape(bad),
         3 => Setting::Gradation(Some(if bad == 1e-300 { -bad } else { bad })),
         4 => Setting::DiameterAtRiskOne(if bad == 1e-300 { -bad } else { bad }),
-        5 => Setting::Layers(Layer::usual(LayerKind::constant(if bad == 1e-300 { 0.0 } else { bad }))),
+        5 => {
+            Setting::Layers(Layer::default_stack(LayerKind::constant(if bad == 1e-300 { 0.0 } else { bad })))
+        }
         _ => Setting::Bounds(Rect::new(DVec2::ZERO, dvec2(bad, 1.0))),
     }
 }

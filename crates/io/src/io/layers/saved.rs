@@ -30,7 +30,7 @@ pub struct SavedLayer {
     #[serde(default, skip_serializing_if = "is_no")]
     pub locked: bool,
     /// How it is combined with the layers below.
-    #[serde(default, skip_serializing_if = "SavedCombine::is_usual")]
+    #[serde(default, skip_serializing_if = "SavedCombine::is_default")]
     pub combine: SavedCombine,
     /// Where it counts: polygons, each a list of rings, the outer one first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -311,9 +311,9 @@ impl SavedLayer {
         Self { across: Some(across), width_from: Some(from), width_to: Some(to), ..Self::of_kind(kind) }
     }
 
-    /// Returns the name of the layer, or the usual one of its kind.
+    /// Returns the name of the layer, or the default one of its kind.
     pub fn shown_name(&self) -> &str {
-        self.name.as_deref().unwrap_or(self.kind.usual_name())
+        self.name.as_deref().unwrap_or(self.kind.default_name())
     }
 
     /// Returns whether it is painted.

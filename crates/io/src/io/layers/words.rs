@@ -234,7 +234,7 @@ impl SavedKind {
     }
 
     /// Returns the name of a layer that is given none.
-    pub fn usual_name(self) -> &'static str {
+    pub fn default_name(self) -> &'static str {
         match self {
             Self::Paint => "Paint",
             Self::Formula => "Formula",
@@ -281,7 +281,7 @@ impl SavedKind {
 }
 
 impl SavedCombine {
-    pub(super) fn is_usual(&self) -> bool {
+    pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }

@@ -42,7 +42,7 @@ impl Limits {
 
 /// What a part holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Content {
+enum PartContent {
     Settings,
     Background,
     Lists,
@@ -52,7 +52,7 @@ enum Content {
     Unknown,
 }
 
-impl Content {
+impl PartContent {
     fn of_part(name: &str) -> Self {
         match name.split('.').next().unwrap_or_default() {
             "settings" => Self::Settings,
@@ -104,25 +104,25 @@ impl Sizes {
             return Err(TooLarge { what: "layers and regions", given, limit, advice: "remove some" });
         }
         let advice = "shorten formulas and names, or remove layers";
-        match Content::of_part(name) {
-            Content::Settings => check("settings", bytes, limits.settings, advice),
-            Content::Background => {
+        match PartContent::of_part(name) {
+            PartContent::Settings => check("settings", bytes, limits.settings, advice),
+            PartContent::Background => {
                 check("pixels of the background picture", bytes, limits.background, "use a smaller picture")
             }
-            Content::Lists => {
+            PartContent::Lists => {
                 let advice = "simplify shapes, masks and regions, or remove layers";
                 check("points and threats", add(&mut self.lists, bytes), limits.lists, advice)
             }
-            Content::Raster => {
+            PartContent::Raster => {
                 let advice = "scale rasters down, or remove layers";
                 check("rasters", add(&mut self.rasters, bytes), limits.rasters, advice)
             }
-            Content::Paint => {
+            PartContent::Paint => {
                 add(&mut self.paint, bytes);
                 add(&mut self.packed_paint, packed);
                 Ok(())
             }
-            Content::Unknown => Ok(()),
+            PartContent::Unknown => Ok(()),
         }
     }
 

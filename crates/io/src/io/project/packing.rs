@@ -16,11 +16,11 @@ pub struct ProjectPacking {
     /// How many parts are packed.
     packed: usize,
     /// The part that is being packed.
-    part: Option<Part>,
+    part: Option<PackedPart>,
     archive: Option<ArchiveWriter<Vec<u8>>>,
 }
 
-struct Part {
+struct PackedPart {
     name: String,
     bytes: Vec<u8>,
     /// How many bytes are packed.
@@ -60,7 +60,8 @@ impl ProjectPacking {
                 let Some((name, write)) = parts.get(self.packed) else { return archive.finish().map(Some) };
                 let mut bytes = Vec::new();
                 write(&mut bytes)?;
-                self.part = Some(Part { name: name.to_string(), bytes, done: 0, packing: Packing::quick() });
+                self.part =
+                    Some(PackedPart { name: name.to_string(), bytes, done: 0, packing: Packing::quick() });
             }
         }
         self.archive = Some(archive);

@@ -19,7 +19,7 @@ use meshbrush_mesh::text::excerpt;
 /// The waypoints, the cost and the keep-out regions of paths.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SavedPaths {
+pub(super) struct StoredPaths {
     /// x and y of each place of each path, from the start to the goal.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     routes: Vec<Vec<[f64; 2]>>,
@@ -29,7 +29,7 @@ pub(super) struct SavedPaths {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cost: Option<SavedCost>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    keep_out: Vec<SavedKeepOut>,
+    keep_out: Vec<StoredKeepOut>,
     /// The least distance from the outline and from keep-out regions.
     #[serde(default, skip_serializing_if = "is_zero")]
     clearance: f64,
@@ -41,7 +41,7 @@ fn is_zero(value: &f64) -> bool {
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SavedKeepOut {
+struct StoredKeepOut {
     name: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     polygons: Option<Vec<SavedPolygon>>,
@@ -57,7 +57,7 @@ enum SavedCost {
     Formula(String),
 }
 
-impl SavedPaths {
+impl StoredPaths {
     pub(super) fn of(paths: &PathPlan, names: &PartNames) -> Self {
         let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
         let cost = match &paths.cost {
@@ -66,12 +66,12 @@ impl SavedPaths {
             }
             PathCost::Formula(formula) => SavedCost::Formula(formula.source().into()),
         };
-        let is_usual = paths.cost == PathCost::default();
+        let is_default = paths.cost == PathCost::default();
         Self {
             routes: paths.routes.iter().map(route).collect(),
             names: paths.names.clone(),
-            cost: (!is_usual).then_some(cost),
-            keep_out: paths.keep_out.iter().map(|region| SavedKeepOut::of(region, names)).collect(),
+            cost: (!is_default).then_some(cost),
+            keep_out: paths.keep_out.iter().map(|region| StoredKeepOut::of(region, names)).collect(),
             clearance: paths.clearance,
         }
     }
@@ -103,7 +103,7 @@ impl SavedPaths {
     }
 }
 
-impl SavedKeepOut {
+impl StoredKeepOut {
     fn of(KeepOut { name, mask }: &KeepOut, names: &PartNames) -> Self {
         let part = PartData::of_mask(mask).and_then(|data| names.of(&data).map(str::to_owned));
         let polygons = part.is_none().then(|| mask.polygons().iter().map(saved_polygon).collect());

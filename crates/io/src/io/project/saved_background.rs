@@ -15,7 +15,7 @@ use meshbrush_core::document::Background;
 pub(super) struct SavedBackground {
     name: String,
     /// The part with the pixels.
-    #[serde(default = "usual_part", skip_serializing_if = "is_usual_part")]
+    #[serde(default = "default_part", skip_serializing_if = "is_default_part")]
     part: String,
     bounds: [f64; 4],
     opacity: f64,
@@ -40,10 +40,10 @@ impl SavedBackground {
     }
 }
 
-fn usual_part() -> String {
+fn default_part() -> String {
     BACKGROUND.to_owned()
 }
 
-fn is_usual_part(part: &str) -> bool {
+fn is_default_part(part: &str) -> bool {
     part == BACKGROUND
 }

@@ -12,7 +12,7 @@ use super::super::json::{self, JsonFlaw};
 use super::super::settings::{SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks};
 use super::part_names::{PartData, PartNames};
 use super::part_reader::PartReader;
-use super::paths::SavedPaths;
+use super::paths::StoredPaths;
 use super::saved_background::SavedBackground;
 use super::saved_cut::SavedCut;
 use super::stored_layers::{StoredLayer, check_raster_sizes};
@@ -48,7 +48,7 @@ pub(super) struct Saved {
     unit: SavedUnit,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     background: Option<SavedBackground>,
-    pub(super) domain: SavedDomain,
+    pub(super) domain: StoredDomain,
     boundary: SavedBoundary,
     cleaning: SavedCleaning,
     #[serde(default, skip_serializing_if = "SavedMarks::is_empty")]
@@ -59,8 +59,8 @@ pub(super) struct Saved {
     /// The part with the pins, where there are many.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pins_part: Option<String>,
-    #[serde(default, skip_serializing_if = "SavedPaths::is_empty")]
-    paths: SavedPaths,
+    #[serde(default, skip_serializing_if = "StoredPaths::is_empty")]
+    paths: StoredPaths,
     spacing: f64,
     transfer: SavedTransfer,
     /// From the bottom to the top.
@@ -77,10 +77,10 @@ pub(super) struct Saved {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SavedDomain {
+pub(super) struct StoredDomain {
     /// x and y of the lower left corner, then of the upper right one.
     pub(super) bounds: [f64; 4],
-    shape: SavedShape,
+    shape: StoredShape,
     /// The part with its polygons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     polygons: Option<String>,
@@ -94,7 +94,7 @@ pub(super) struct SavedDomain {
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum SavedShape {
+enum StoredShape {
     Whole,
     Formula(String),
     /// Polygons, which are a part of their own.
@@ -139,14 +139,14 @@ impl SavedMarks {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SavedCleaning {
-    parts: SavedParts,
+    parts: StoredParts,
     keep_pinches: bool,
 }
 
 /// A share is a table here and a plain number in recipes.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum SavedParts {
+enum StoredParts {
     All,
     Largest,
     WithShare(f64),
@@ -155,9 +155,9 @@ enum SavedParts {
 impl From<Cleaning> for SavedCleaning {
     fn from(cleaning: Cleaning) -> Self {
         let parts = match cleaning.parts {
-            KeptParts::All => SavedParts::All,
-            KeptParts::Largest => SavedParts::Largest,
-            KeptParts::Share(share) => SavedParts::WithShare(share),
+            KeptParts::All => StoredParts::All,
+            KeptParts::Largest => StoredParts::Largest,
+            KeptParts::Share(share) => StoredParts::WithShare(share),
         };
         Self { parts, keep_pinches: cleaning.keeps_pinches }
     }
@@ -166,9 +166,9 @@ impl From<Cleaning> for SavedCleaning {
 impl From<SavedCleaning> for Cleaning {
     fn from(saved: SavedCleaning) -> Self {
         let parts = match saved.parts {
-            SavedParts::All => KeptParts::All,
-            SavedParts::Largest => KeptParts::Largest,
-            SavedParts::WithShare(share) => KeptParts::Share(share),
+            StoredParts::All => KeptParts::All,
+            StoredParts::Largest => KeptParts::Largest,
+            StoredParts::WithShare(share) => KeptParts::Share(share),
         };
         Self { parts, keeps_pinches: saved.keep_pinches }
     }
@@ -223,12 +223,12 @@ impl Saved {
             name: settings.name.clone(),
             unit: settings.unit.into(),
             background: settings.background.as_ref().map(|background| SavedBackground::of(background, names)),
-            domain: SavedDomain {
+            domain: StoredDomain {
                 bounds: corners(settings.domain.bounds),
                 shape: match &settings.domain.shape {
-                    DomainShape::Whole => SavedShape::Whole,
-                    DomainShape::Formula(formula) => SavedShape::Formula(formula.source().into()),
-                    DomainShape::Region(_) => SavedShape::Polygons,
+                    DomainShape::Whole => StoredShape::Whole,
+                    DomainShape::Formula(formula) => StoredShape::Formula(formula.source().into()),
+                    DomainShape::Region(_) => StoredShape::Polygons,
                 },
                 polygons: settings.domain.region().cloned().map(PartData::Region).and_then(name_of),
                 projection: settings.domain.projection.map(|projection| projection.to_string()),
@@ -246,7 +246,7 @@ impl Saved {
                 None => settings.pins.iter().map(DVec2::to_array).collect(),
             },
             pins_part,
-            paths: SavedPaths::of(&settings.paths, names),
+            paths: StoredPaths::of(&settings.paths, names),
             spacing: settings.spacing,
             transfer: SavedTransfer::of(settings.transfer),
             layers: settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect(),
@@ -302,9 +302,9 @@ impl Saved {
         let projection = self.domain.projection.as_deref().map(str::parse::<Projection>);
         let projection = projection.transpose().map_err(sentence)?;
         let shape = match self.domain.shape {
-            SavedShape::Whole => DomainShape::Whole,
-            SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
-            SavedShape::Polygons => {
+            StoredShape::Whole => DomainShape::Whole,
+            StoredShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
+            StoredShape::Polygons => {
                 let on_earth = OutlineOnEarth { file: None, projection, frame: None };
                 let cuts = self.domain.cuts.iter().map(SavedCut::load).collect::<Result<_, _>>()?;
                 parts.domain(self.domain.polygons.as_deref(), bounds, &on_earth, cuts)?

@@ -8,7 +8,9 @@ use super::super::geojson::{self, Outline};
 use super::super::layers::{
     LayerData, LoadedRaster, RasterError, RasterFrame, RasterLoader, SavedLayer, Stored, TextError,
 };
-use super::super::settings::{ReadRegion, RegionCoordinates, SavedOpen, SavedSettings, Storage, Usual};
+use super::super::settings::{
+    LoadingDefaults, ReadRegion, RegionCoordinates, SavedOpen, SavedSettings, Storage,
+};
 use super::super::shapes::ShapeFile;
 use super::super::{
     DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
@@ -53,7 +55,7 @@ pub enum LoadError {
 /// How files are read.
 pub struct Loading<'a> {
     /// The limits of a mesh where the text has none.
-    pub usual: Usual,
+    pub defaults: LoadingDefaults,
     /// Whether hidden layers, which ask for nothing, are read too.
     pub with_hidden: bool,
     /// Reads the polygons of the domain.
@@ -70,7 +72,7 @@ impl<'a> Loading<'a> {
     /// Returns all layers, for a document.
     pub fn for_document(meter: &'a Meter) -> Self {
         Self {
-            usual: Usual::DOCUMENT,
+            defaults: LoadingDefaults::DOCUMENT,
             with_hidden: true,
             read_outline: shape_format::read_outline,
             read_land: shape_format::read_own_shapes,
@@ -122,7 +124,7 @@ impl SavedSettings {
         let unsuited = |error: SettingsError| LoadError::Unsuited(error.to_string());
         check_layer_count(self.layer.len()).map_err(unsuited)?;
         let mut files = Files::new(loading);
-        let mut settings = self.load(name, &loading.usual, &mut files)?;
+        let mut settings = self.load(name, &loading.defaults, &mut files)?;
         let idle = mark_notes(&self.domain, &settings);
         let opened = self.open_boundary(&mut settings, &mut files)?;
         check_outline(&settings)?;

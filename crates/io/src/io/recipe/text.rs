@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::super::error::PlacedFlaw;
 use super::super::settings::SavedSettings;
 use super::super::values::TextValue;
-use super::super::{Flaw, KeyFault, Mark, PlaceInFile, ReadError, Step};
+use super::super::{Flaw, KeyFault, KeyStep, Mark, PlaceInFile, ReadError};
 use meshbrush_core::field::formula::draw_pointer;
 use meshbrush_mesh::text::excerpt;
 
@@ -85,11 +85,11 @@ impl RecipeText {
         let mut inner = &root;
         for step in &fault.path {
             let next = match step {
-                Step::Key(name) => {
+                KeyStep::Key(name) => {
                     let found = inner.get_ref().as_table().and_then(|table| table.get_key_value(&**name));
                     found.map(|(found, value)| (Some(found.span()), value))
                 }
-                Step::Index(index) => inner.get_ref().get(*index).map(|value| (None, value)),
+                KeyStep::Index(index) => inner.get_ref().get(*index).map(|value| (None, value)),
             };
             let Some((next_key, next_value)) = next else { break };
             (key, value, inner) = (next_key, next_value.span(), next_value);

@@ -9,7 +9,7 @@ use super::{
 use crate::io::layers::{
     CheckedKind, FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
 };
-use crate::io::{KeyFault, RasterFormat, Step};
+use crate::io::{KeyFault, KeyStep, RasterFormat};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
 use meshbrush_core::domain::{DepthContour, DepthContourError};
@@ -142,7 +142,7 @@ impl SavedSettings {
 /// Returns the name of a keep-out region that is given none.
 fn region_name(file: Option<&Path>) -> String {
     let name = file.map(|file| file.file_name().unwrap_or_default().to_string_lossy().into_owned());
-    name.unwrap_or_else(|| super::paths::USUAL_NAME.into())
+    name.unwrap_or_else(|| super::paths::DEFAULT_NAME.into())
 }
 
 impl SavedDomain {
@@ -371,6 +371,6 @@ impl SavedPins {
     }
 }
 
-fn length(key: impl Into<Step>, value: f64) -> Result<(), KeyFault> {
+fn length(key: impl Into<KeyStep>, value: f64) -> Result<(), KeyFault> {
     positive_length(value).map(|_| ()).map_err(|fault| fault.within(key))
 }

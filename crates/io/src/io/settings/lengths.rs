@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use super::SavedSettings;
-use crate::io::{KeyFault, Step, TextValue};
+use crate::io::{KeyFault, KeyStep, TextValue};
 use meshbrush_mesh::text::{Length, LengthUnit, area, excerpt};
 
 /// The keys with a length, in whichever table they are.
@@ -38,7 +38,7 @@ pub struct WrittenLengths(Vec<WrittenLength>);
 
 #[derive(Clone, Debug, PartialEq)]
 struct WrittenLength {
-    path: Vec<Step>,
+    path: Vec<KeyStep>,
     length: Length,
 }
 
@@ -61,7 +61,7 @@ impl WrittenLengths {
     fn take_from(
         &mut self,
         value: &mut TextValue,
-        path: &mut Vec<Step>,
+        path: &mut Vec<KeyStep>,
         unit: LengthUnit,
     ) -> Result<(), KeyFault> {
         match value {
@@ -103,7 +103,7 @@ impl WrittenLengths {
     fn take_knots(
         &mut self,
         knots: &mut [TextValue],
-        path: &mut Vec<Step>,
+        path: &mut Vec<KeyStep>,
         unit: LengthUnit,
     ) -> Result<(), KeyFault> {
         for (index, knot) in knots.iter_mut().enumerate() {
@@ -120,7 +120,7 @@ impl WrittenLengths {
     }
 
     /// Returns the number of a length, and keeps its unit in mind.
-    fn number(&mut self, text: &str, path: &[Step], unit: LengthUnit) -> Result<f64, KeyFault> {
+    fn number(&mut self, text: &str, path: &[KeyStep], unit: LengthUnit) -> Result<f64, KeyFault> {
         let fault = |sentence| KeyFault { path: path.to_owned(), ..KeyFault::here(sentence) };
         if text.trim().is_empty() {
             let sentence = "this text is empty: write a length such as \"40 km\", or a number.";
@@ -164,7 +164,7 @@ impl WrittenLengths {
 }
 
 /// Returns the number of a length or an area on the ground.
-fn on_ground(key: &str, text: &str, path: &[Step], unit: LengthUnit) -> Result<f64, KeyFault> {
+fn on_ground(key: &str, text: &str, path: &[KeyStep], unit: LengthUnit) -> Result<f64, KeyFault> {
     let read = ON_GROUND
         .iter()
         .find(|(name, _)| *name == key)

@@ -21,11 +21,11 @@ use meshbrush_mesh::text::LengthUnit;
 
 /// Coarse cells along the longer side of the domain unless the spacing is given (N_e of the report's
 /// example).
-const USUAL_CELLS: f64 = 20.0;
+const DEFAULT_CELLS: f64 = 20.0;
 
 /// The limits of a mesh where the text has none.
 #[derive(Clone, Copy, Debug)]
-pub struct Usual {
+pub struct LoadingDefaults {
     /// Most coarse triangles; no text says it.
     pub most_coarse: usize,
     /// Most triangles.
@@ -34,7 +34,7 @@ pub struct Usual {
     pub max_memory: usize,
 }
 
-impl Usual {
+impl LoadingDefaults {
     /// That of a document.
     pub const DOCUMENT: Self = Self {
         most_coarse: meshbrush_core::document::MAX_COARSE_TRIANGLES,
@@ -134,7 +134,7 @@ impl<L> SavedSettings<L> {
     pub fn load<S: Storage<Layer = L>>(
         &self,
         name: &str,
-        usual: &Usual,
+        defaults: &LoadingDefaults,
         storage: &mut S,
     ) -> Result<Settings, S::Error> {
         self.check_tables()?;
@@ -143,8 +143,8 @@ impl<L> SavedSettings<L> {
         self.lengths.check(unit)?;
         let bounds = domain.bounds;
         let marks = self.domain.marks_on(&domain).before(marks);
-        let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
-        let lattice = Lattice::covering(bounds, spacing, usual.most_coarse).map_err(CoarseError::from)?;
+        let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / DEFAULT_CELLS);
+        let lattice = Lattice::covering(bounds, spacing, defaults.most_coarse).map_err(CoarseError::from)?;
         let coarse_diameter = domain.longest_on_earth(bisection_edge_length(lattice.spacing(), 0));
         let transfer = self.transfer::<S>(coarse_diameter);
         let numbered = self.layer.iter().zip((0..).map(LayerId));
@@ -169,7 +169,7 @@ impl<L> SavedSettings<L> {
         let settings = Settings {
             name: name.to_owned(),
             unit,
-            boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
+            boundary: BoundaryTreatment::default_for(domain.longest_on_earth(spacing)),
             domain,
             boundary_marks: Arc::new(marks),
             pins: Arc::new(pins),
@@ -178,8 +178,8 @@ impl<L> SavedSettings<L> {
             transfer,
             layers,
             rule: RefinementRule::Area,
-            max_triangles: usual.max_triangles,
-            max_memory: usual.max_memory,
+            max_triangles: defaults.max_triangles,
+            max_memory: defaults.max_memory,
             ..Settings::default()
         };
         Ok(self.override_settings(settings)?)
@@ -219,11 +219,11 @@ impl<L> SavedSettings<L> {
         Transfer { h_min, h_risk, h_max, shape: self.limits.shape.unwrap_or(1.0) }
     }
 
-    /// Returns which triangles stay: the usual ones, unless the text says otherwise.
-    pub fn cleaning(&self, usual: Cleaning) -> Cleaning {
+    /// Returns which triangles stay: the default ones, unless the text says otherwise.
+    pub fn cleaning(&self, default: Cleaning) -> Cleaning {
         Cleaning {
-            parts: self.domain.parts.map_or(usual.parts, Into::into),
-            keeps_pinches: self.domain.keep_pinches.unwrap_or(usual.keeps_pinches),
+            parts: self.domain.parts.map_or(default.parts, Into::into),
+            keeps_pinches: self.domain.keep_pinches.unwrap_or(default.keeps_pinches),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Settings as texts have them: recipes (TOML), projects and recordings (JSON), and the options of the
 //! command line.
 //!
-//! [`SavedSettings`] has a struct for each table; what is missing has its usual value.
+//! [`SavedSettings`] has a struct for each table; what is missing has its default value.
 //! [`SavedSettings::load`] makes the settings of a document from it, and [`SavedSettings::of`] is the way
 //! back. A [`Storage`] reads what tables and layers name: files beside a recipe, or parts of a project.
 
@@ -16,7 +16,7 @@ mod tables;
 mod words;
 
 pub use lengths::{METRES, WrittenLengths};
-pub use load::{ReadRegion, RegionCoordinates, Storage, Usual};
+pub use load::{LoadingDefaults, ReadRegion, RegionCoordinates, Storage};
 pub use opening::{SavedOpen, SavedOpenings};
 pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,

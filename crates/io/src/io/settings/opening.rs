@@ -116,10 +116,10 @@ impl<'de> Visitor<'de> for OpenVisitor {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<SavedOpenings, A::Error> {
         let (mut openings, mut numbers) = (Vec::new(), Vec::new());
-        while let Some(entry) = list.next_element::<Entry>()? {
+        while let Some(entry) = list.next_element::<OpeningEntry>()? {
             match entry {
-                Entry::Number(number) => numbers.push(number),
-                Entry::Openings(SavedOpenings(more)) => openings.extend(more),
+                OpeningEntry::Number(number) => numbers.push(number),
+                OpeningEntry::Openings(SavedOpenings(more)) => openings.extend(more),
             }
         }
         match (numbers.is_empty(), openings.is_empty()) {
@@ -138,12 +138,12 @@ impl<'de> Visitor<'de> for OpenVisitor {
 }
 
 /// An entry of a list: a side of a box, or an opening.
-enum Entry {
+enum OpeningEntry {
     Number(f64),
     Openings(SavedOpenings),
 }
 
-impl<'de> Deserialize<'de> for Entry {
+impl<'de> Deserialize<'de> for OpeningEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(EntryVisitor)
     }
@@ -152,29 +152,29 @@ impl<'de> Deserialize<'de> for Entry {
 struct EntryVisitor;
 
 impl<'de> Visitor<'de> for EntryVisitor {
-    type Value = Entry;
+    type Value = OpeningEntry;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         OpenVisitor.expecting(f)
     }
 
-    fn visit_f64<E: Error>(self, number: f64) -> Result<Entry, E> {
-        Ok(Entry::Number(number))
+    fn visit_f64<E: Error>(self, number: f64) -> Result<OpeningEntry, E> {
+        Ok(OpeningEntry::Number(number))
     }
 
-    fn visit_i64<E: Error>(self, number: i64) -> Result<Entry, E> {
-        Ok(Entry::Number(number as f64))
+    fn visit_i64<E: Error>(self, number: i64) -> Result<OpeningEntry, E> {
+        Ok(OpeningEntry::Number(number as f64))
     }
 
-    fn visit_u64<E: Error>(self, number: u64) -> Result<Entry, E> {
-        Ok(Entry::Number(number as f64))
+    fn visit_u64<E: Error>(self, number: u64) -> Result<OpeningEntry, E> {
+        Ok(OpeningEntry::Number(number as f64))
     }
 
-    fn visit_str<E: Error>(self, text: &str) -> Result<Entry, E> {
-        OpenVisitor.visit_str(text).map(Entry::Openings)
+    fn visit_str<E: Error>(self, text: &str) -> Result<OpeningEntry, E> {
+        OpenVisitor.visit_str(text).map(OpeningEntry::Openings)
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Entry, A::Error> {
-        OpenVisitor.visit_seq(list).map(Entry::Openings)
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OpeningEntry, A::Error> {
+        OpenVisitor.visit_seq(list).map(OpeningEntry::Openings)
     }
 }

@@ -57,8 +57,9 @@ impl<L> SavedSettings<L> {
         };
         let spacing = self.mesh.spacing.unwrap_or(settings.spacing);
         let diameter = self.domain.boundary_diameter.or(settings.boundary.diameter());
-        let diameter = diameter
-            .unwrap_or_else(|| BoundaryTreatment::usual_diameter(settings.domain.longest_on_earth(spacing)));
+        let diameter = diameter.unwrap_or_else(|| {
+            BoundaryTreatment::default_diameter(settings.domain.longest_on_earth(spacing))
+        });
         let treatment = self.domain.boundary.unwrap_or(SavedTreatment::of(settings.boundary));
         Ok(Settings {
             spacing,

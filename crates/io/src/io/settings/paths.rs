@@ -15,7 +15,7 @@ use meshbrush_core::path::Weights;
 use meshbrush_mesh::text::excerpt;
 
 /// The name of a keep-out region that has neither a name nor a file.
-pub(super) const USUAL_NAME: &str = "Keep-out region";
+pub(super) const DEFAULT_NAME: &str = "Keep-out region";
 
 impl SavedPaths {
     /// Returns the paths of a document, without its keep-out regions.
@@ -23,13 +23,13 @@ impl SavedPaths {
         let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
         let routes = plan.routes.iter().map(route).collect();
         let clearance = Some(plan.clearance).filter(|&clearance| clearance != 0.0);
-        let usual = Self { routes, names: plan.names.clone(), clearance, ..Self::default() };
+        let default = Self { routes, names: plan.names.clone(), clearance, ..Self::default() };
         match &plan.cost {
-            cost if *cost == PathCost::default() => usual,
+            cost if *cost == PathCost::default() => default,
             PathCost::Weighted(Weights { length, risk }) => {
-                Self { length_weight: Some(*length), risk_weight: Some(*risk), ..usual }
+                Self { length_weight: Some(*length), risk_weight: Some(*risk), ..default }
             }
-            PathCost::Formula(formula) => Self { cost: Some(formula.source().to_owned()), ..usual },
+            PathCost::Formula(formula) => Self { cost: Some(formula.source().to_owned()), ..default },
         }
     }
 
@@ -68,10 +68,10 @@ impl SavedPaths {
                 .map_err(|mistake| KeyFault::mistake("cost", text, 0, &mistake)),
             (None, None) => Ok(PathCost::default()),
             (None, Some(key)) => {
-                let usual = Weights::default();
+                let default = Weights::default();
                 let cost = PathCost::Weighted(Weights {
-                    length: self.length_weight.unwrap_or(usual.length),
-                    risk: self.risk_weight.unwrap_or(usual.risk),
+                    length: self.length_weight.unwrap_or(default.length),
+                    risk: self.risk_weight.unwrap_or(default.risk),
                 });
                 let plan = PathPlan { cost, ..PathPlan::default() };
                 plan.check().map_err(|error| KeyFault::value(key, error.to_string()))?;
@@ -116,7 +116,7 @@ impl SavedKeepOut {
             (None, Some(file)) => read(file)?,
             (polygons, _) => polygons.unwrap_or_default(),
         };
-        let name = self.name.clone().unwrap_or_else(|| USUAL_NAME.into());
+        let name = self.name.clone().unwrap_or_else(|| DEFAULT_NAME.into());
         let mask = Mask::new(&polygons).map_err(|problem| {
             TextError(format!("The keep-out region “{}” cannot be used. {problem}", excerpt(40, &name)))
         })?;

@@ -22,13 +22,13 @@ pub struct SavedSettings<L = SavedLayer> {
     /// The size field, from the bottom layer to the top one.
     pub layer: Vec<L>,
     /// Between which places paths are sought, and what they cost.
-    #[serde(skip_serializing_if = "is_usual")]
+    #[serde(skip_serializing_if = "is_default")]
     pub paths: SavedPaths,
     /// Regions that paths stay out of.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keep_out: Vec<SavedKeepOut>,
     /// Points whose triangles and values the window follows.
-    #[serde(skip_serializing_if = "is_usual")]
+    #[serde(skip_serializing_if = "is_default")]
     pub pins: SavedPins,
     /// Files to write.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -54,7 +54,7 @@ impl<L> Default for SavedSettings<L> {
     }
 }
 
-fn is_usual<T: Default + PartialEq>(table: &T) -> bool {
+fn is_default<T: Default + PartialEq>(table: &T) -> bool {
     *table == T::default()
 }
 

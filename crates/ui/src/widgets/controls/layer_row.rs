@@ -132,8 +132,8 @@ impl LayerRow<'_> {
         let name = format!("{} {what}", self.name);
         response.widget_info(|| WidgetInfo::selected(Role::CheckBox, ui.is_enabled(), on, &name));
         // What is not as usual stands out: hidden layers and locked ones.
-        let is_usual = on == (what == "visible");
-        let ink = match (response.hovered(), is_usual) {
+        let is_default = on == (what == "visible");
+        let ink = match (response.hovered(), is_default) {
             (true, _) => t.value,
             (false, true) if what == "locked" => t.faint.gamma_multiply(0.6),
             (false, true) => t.label,

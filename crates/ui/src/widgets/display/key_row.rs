@@ -19,7 +19,7 @@ pub fn key_row(ui: &mut Ui, title: &str, keys: &str) -> Response {
     response
 }
 
-/// Shows an action and its keys, to click on. `is_changed` marks keys that are not the usual ones.
+/// Shows an action and its keys, to click on. `is_changed` marks keys that are not the default ones.
 pub fn key_row_button(
     ui: &mut Ui,
     title: &str,

@@ -7,7 +7,7 @@ use crate::widgets::{ActionButton, ButtonKind};
 
 /// How a [`ConfirmDialog`] was answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum ConfirmAnswer {
     /// Do it.
     Confirmed,
     /// Do the other thing.
@@ -68,13 +68,13 @@ impl<'a> ConfirmDialog<'a> {
     }
 
     /// Shows the dialog and returns the answer given in this frame.
-    pub fn show(self, ctx: &Context) -> Option<Answer> {
+    pub fn show(self, ctx: &Context) -> Option<ConfirmAnswer> {
         let shown = dialog(ctx, "confirm dialog", |ui| self.contents(ui));
-        let closed = shown.should_close().then_some(Answer::Cancelled);
+        let closed = shown.should_close().then_some(ConfirmAnswer::Cancelled);
         shown.inner.or(closed)
     }
 
-    fn contents(&self, ui: &mut Ui) -> Option<Answer> {
+    fn contents(&self, ui: &mut Ui) -> Option<ConfirmAnswer> {
         let t = tokens(ui);
         ui.set_width(380.0);
         dialog_title(ui, self.title);
@@ -85,12 +85,12 @@ impl<'a> ConfirmDialog<'a> {
             let left = self.alternative.filter(|text| ui.add(ActionButton::new(text)).clicked());
             let right =
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.right_buttons(ui)).inner;
-            right.or(left.map(|_| Answer::Alternative))
+            right.or(left.map(|_| ConfirmAnswer::Alternative))
         })
         .inner
     }
 
-    fn right_buttons(&self, ui: &mut Ui) -> Option<Answer> {
+    fn right_buttons(&self, ui: &mut Ui) -> Option<ConfirmAnswer> {
         let kind = if self.danger { ButtonKind::Danger } else { ButtonKind::Main };
         let confirm = ui.add(ActionButton::new(self.confirm).kind(kind));
         let cancel = ui.add(ActionButton::new(self.cancel));
@@ -98,8 +98,8 @@ impl<'a> ConfirmDialog<'a> {
             if self.danger { cancel.request_focus() } else { confirm.request_focus() }
         }
         match (confirm.clicked(), cancel.clicked()) {
-            (true, _) => Some(Answer::Confirmed),
-            (_, true) => Some(Answer::Cancelled),
+            (true, _) => Some(ConfirmAnswer::Confirmed),
+            (_, true) => Some(ConfirmAnswer::Cancelled),
             _ => None,
         }
     }

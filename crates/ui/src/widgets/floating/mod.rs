@@ -9,7 +9,7 @@ mod search;
 mod search_field;
 
 pub use banner::{Banner, BannerAnswer};
-pub use confirm::{Answer, ConfirmDialog, dialog, dialog_title};
+pub use confirm::{ConfirmAnswer, ConfirmDialog, dialog, dialog_title};
 pub use float::{Hint, elided_text, floating_tag, hint_pill, paint_floating, tag_size};
 pub use palette::{PaletteAnswer, PaletteItem, command_palette};
 pub use progress::{bytes_row, progress_row};

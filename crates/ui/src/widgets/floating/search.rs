@@ -2,7 +2,7 @@
 
 /// A text that matches a query.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found {
+pub struct TextMatch {
     /// How well it matches, best first: 0 if the text begins with the query; 1 if a word does; 2 if each
     /// word of the query begins a word of the text, in any order; 3 if each is a part of the text; 4 if some
     /// are among its other words; 5 if only the letters occur in this order.
@@ -13,18 +13,18 @@ pub struct Found {
 
 /// Finds `query` in `text`, or in `words`, which are other words for it. Capitals do not matter, nor do
 /// spaces around the query. An empty query is found everywhere.
-pub fn find(query: &str, text: &str, words: &str) -> Option<Found> {
+pub fn find(query: &str, text: &str, words: &str) -> Option<TextMatch> {
     let [whole, text, words] =
         [query.trim(), text, words].map(|text| text.chars().map(lower).collect::<Vec<char>>());
     let word = (0..text.len()).find(|&at| is_word_start(&text, at) && text[at..].starts_with(&whole));
     if let Some(at) = word {
-        return Some(Found { rank: u8::from(at > 0), places: (at..at + whole.len()).collect() });
+        return Some(TextMatch { rank: u8::from(at > 0), places: (at..at + whole.len()).collect() });
     }
     find_each(&whole, &text, &words).or_else(|| in_order(&whole, &text))
 }
 
 /// Finds each word of a query by itself: at the start of a word, anywhere, or among the other words.
-fn find_each(query: &[char], text: &[char], words: &[char]) -> Option<Found> {
+fn find_each(query: &[char], text: &[char], words: &[char]) -> Option<TextMatch> {
     let (mut rank, mut places) = (2, Vec::new());
     for part in query.split(|letter| letter.is_whitespace()).filter(|part| !part.is_empty()) {
         let at_start = |text: &[char]| {
@@ -43,14 +43,14 @@ fn find_each(query: &[char], text: &[char], words: &[char]) -> Option<Found> {
     }
     places.sort_unstable();
     places.dedup();
-    Some(Found { rank, places })
+    Some(TextMatch { rank, places })
 }
 
-fn in_order(query: &[char], text: &[char]) -> Option<Found> {
+fn in_order(query: &[char], text: &[char]) -> Option<TextMatch> {
     let mut rest = text.iter().enumerate();
     let letters = query.iter().filter(|letter| !letter.is_whitespace());
     let places = letters.map(|letter| rest.find(|(_, other)| *other == letter).map(|(at, _)| at));
-    Some(Found { rank: 5, places: places.collect::<Option<_>>()? })
+    Some(TextMatch { rank: 5, places: places.collect::<Option<_>>()? })
 }
 
 fn is_word_start(text: &[char], at: usize) -> bool {

@@ -97,7 +97,7 @@ fn the_type_of_a_piece_is_chosen_split_undone_and_taken_back() {
     click(&mut window, dvec2(0.5, -1.0), Modifiers::NONE);
     assert_eq!(types(&window)[..3], [inflow, inflow, None], "both parts have the type");
     key(&mut window, Modifiers::COMMAND, Key::Z);
-    choose(&mut window, "usual (open)");
+    choose(&mut window, "default (open)");
     assert_eq!(types(&window), [None; 5]);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(types(&window)[0], inflow);

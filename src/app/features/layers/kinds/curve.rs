@@ -77,19 +77,19 @@ pub fn curve_plot(
     (changed, response)
 }
 
-/// What was done with the buttons of the usual curves.
+/// What was done with the buttons of the default curves.
 #[derive(Default)]
-pub struct UsualCurves {
+pub struct DefaultCurves {
     /// The curve of the button that was clicked.
     pub chosen: Option<ValueCurve>,
     /// The curve of the button under the pointer.
     pub hovered: Option<ValueCurve>,
 }
 
-/// Shows buttons that make the usual curves.
-pub fn usual_curves(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) -> UsualCurves {
+/// Shows buttons that make the default curves.
+pub fn default_curves(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) -> DefaultCurves {
     let transfer = state.session.document().settings().transfer;
-    let mut done = UsualCurves::default();
+    let mut done = DefaultCurves::default();
     ui.add_space(4.0);
     ui.horizontal_wrapped(|ui| {
         for (name, place) in [

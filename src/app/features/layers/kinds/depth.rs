@@ -54,10 +54,10 @@ impl Size {
     }
 
     /// Returns the rule with numbers that people begin with.
-    fn usual(self) -> DepthRule {
+    fn default_rule(self) -> DepthRule {
         match self {
             Self::Nothing => DepthRule::Nothing,
-            Self::Wavelength => DepthRule::USUAL_WAVELENGTH,
+            Self::Wavelength => DepthRule::DEFAULT_WAVELENGTH,
             Self::Slope => DepthRule::Slope { triangles: 20.0, smoothing: 0.0 },
             Self::Courant => DepthRule::Courant { time_step: 2.0, number: 0.5 },
         }
@@ -80,7 +80,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let mut size = Size::of(&sizes.rule);
     let is_in_metres = state.unit().may_be_metres();
     if choice_rows(ui, "Size by", &mut size, &Size::CHOICES).changed() && is_in_metres {
-        sizes.rule = size.usual();
+        sizes.rule = size.default_rule();
     }
     if !is_in_metres {
         remark(ui, &format!("Sizes from depths need a document in metres. {}", way_to_metres(state.unit())));

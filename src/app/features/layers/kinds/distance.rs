@@ -39,7 +39,7 @@ fn draw_shapes() -> Command {
 
 fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
     let transfer = &state.session.document().settings().transfer;
-    add_layer(LayerKind::distance_to(DistanceTo::Outline, transfer, Settings::USUAL_GRADATION))
+    add_layer(LayerKind::distance_to(DistanceTo::Outline, transfer, Settings::DEFAULT_GRADATION))
 }
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::Ui;
 
-use super::curve::{curve_plot, curve_rows, usual_curves};
+use super::curve::{curve_plot, curve_rows, default_curves};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use crate::app::kit::{
@@ -98,11 +98,11 @@ fn curve_controls(
         set_kind(layer, kind(curve), commands);
     }
     end_gesture_when_released(&response, commands);
-    let usual = usual_curves(ui, state, source);
-    let candidate = usual.hovered.map(|curve| with_kind(state, layer, kind(curve)));
+    let default = default_curves(ui, state, source);
+    let candidate = default.hovered.map(|curve| with_kind(state, layer, kind(curve)));
     let kinds = [Setting::Layers(Vec::new()).kind()];
     size_price_row(ui, state, &kinds, candidate, commands);
-    if let Some(curve) = usual.chosen.or(curve_rows(ui, curve, state.unit())) {
+    if let Some(curve) = default.chosen.or(curve_rows(ui, curve, state.unit())) {
         set_kind_once(layer, kind(curve), commands);
     }
 }

@@ -29,7 +29,7 @@ pub static SURFACE: LayerKindRow = LayerKindRow {
             title: "surface of a formula, within an error",
             command: |state| {
                 let bounds = state.session.document().settings().domain.bounds;
-                add_layer(LayerKind::usual_surface(&bounds))
+                add_layer(LayerKind::default_surface(&bounds))
             },
         },
     ],
@@ -156,14 +156,14 @@ fn other_goal(state: &FrameState<'_>, layer: &Layer, given: GivenGoal) -> Surfac
             let mut errors = follower.surface().into_iter().flat_map(|rule| rule.errors());
             let error = errors.find(|(id, _)| *id == layer.id).map(|(_, error)| error);
             let error = error.filter(|error| *error > 0.0 && error.is_finite());
-            SurfaceGoal::Within(error.or(usual_error(layer)).unwrap_or(1.0))
+            SurfaceGoal::Within(error.or(default_error(layer)).unwrap_or(1.0))
         }
     }
 }
 
-fn usual_error(layer: &Layer) -> Option<f64> {
+fn default_error(layer: &Layer) -> Option<f64> {
     let Surface { source, .. } = layer.kind.get()?;
-    LayerKind::usual_error(source.raster()?)
+    LayerKind::default_error(source.raster()?)
 }
 
 /// Shows how many samples have no value, and what takes them out of the domain.

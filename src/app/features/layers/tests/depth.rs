@@ -42,7 +42,7 @@ fn a_grid_of_heights_gives_sizes_and_the_depths_in_files() {
     wait_until(&mut window, |window| active(window).kind.is::<Depths>());
     assert_eq!(
         (sizes(&window).positive, sizes(&window).rule),
-        (PositiveDepth::Up, DepthRule::USUAL_WAVELENGTH)
+        (PositiveDepth::Up, DepthRule::DEFAULT_WAVELENGTH)
     );
     assert_eq!(settings(&window).domain.bounds.max.x, 20_000.0, "an empty document takes the extent");
     click_on(&mut window, Role::RadioButton, "Bottom slope");

@@ -62,7 +62,10 @@ fn depths_in_degrees_begin_a_document_in_metres_and_ask_for_sizes() {
         let file = grid(test, [-6.0, 48.0], 2.0, system);
         let (window, said) = begun_with(LayerCommand::OpenDepth(file));
         let Some(plane) = settings(&window).domain.projection else { panic!("{test}: {said}") };
-        assert_eq!((settings(&window).unit, rule(&window)), (LengthUnit::Metre, DepthRule::USUAL_WAVELENGTH));
+        assert_eq!(
+            (settings(&window).unit, rule(&window)),
+            (LengthUnit::Metre, DepthRule::DEFAULT_WAVELENGTH)
+        );
         assert!(
             said.contains("takes the extent of depths.asc") && said.contains("the document is in metres"),
             "{said}"
@@ -138,7 +141,7 @@ fn depths_in_a_document_without_metres_say_what_they_lack() {
 #[test]
 fn the_way_to_metres_that_an_error_names_is_in_the_window() {
     let (mut window, _) = begun_with(LayerCommand::OpenDepth(grid("unit", [1e5, 1e5], 2e4, None)));
-    assert_eq!(rule(&window), DepthRule::USUAL_WAVELENGTH);
+    assert_eq!(rule(&window), DepthRule::DEFAULT_WAVELENGTH);
     send(&mut window, Command::from(EditCommand::Set(Setting::LengthUnit(LengthUnit::Degree))));
     let problem = wait_for_notice(&mut window);
     assert!(problem.contains("“Domain in metres”") && problem.contains("in the window"), "{problem}");

@@ -404,11 +404,11 @@ fn gradation_is_limited_by_a_switch_and_a_number() {
     let mut window = window_of(TALL);
     let before = triangles(&window);
     click_on(&mut window, Role::CheckBox, "Limit gradation");
-    let usual = triangles(&window);
-    assert!(usual > before, "{before} {usual}");
+    let default = triangles(&window);
+    assert!(default > before, "{before} {default}");
     type_into(&mut window, "Gradation g value", "1.5");
     assert_eq!(settings(&window).gradation, Some(1.5));
-    assert!(triangles(&window) < usual);
+    assert!(triangles(&window) < default);
     assert_eq!(entries(&window), 2);
     click_on(&mut window, Role::CheckBox, "Limit gradation");
     assert_eq!((settings(&window).gradation, triangles(&window)), (None, before));

@@ -92,7 +92,7 @@ fn a_painted_error_counts_in_place_of_that_of_the_surface() {
     let mut window = window_of(TALL);
     send(&mut window, Command::from(FileCommand::New));
     let bounds = settings(&window).domain.bounds;
-    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::usual_surface(&bounds)))));
+    send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::default_surface(&bounds)))));
     wait_for_jobs(&mut window);
     let before = triangles(&window);
     send(&mut window, Command::from(LayerCommand::Add(Box::new(LayerKind::paint(Quantity::Error)))));

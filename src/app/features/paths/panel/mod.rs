@@ -107,8 +107,8 @@ fn show_cost(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// The name of the path, to be typed.
 fn name_row(ui: &mut Ui, plan: &PathPlan, route: usize, commands: &mut Vec<Command>) {
     let mut name = plan.names.get(route).cloned().unwrap_or_default();
-    let usual = PathPlan::default().name(route);
-    let row = TextRow::new("Name", &mut name).hint(&usual);
+    let default = PathPlan::default().name(route);
+    let row = TextRow::new("Name", &mut name).hint(&default);
     let response = row.help("The name of the path, beside its ends on the canvas.").show(ui);
     if response.changed() {
         commands.push(Command::from(PathCommand::Name(name)));

@@ -24,7 +24,7 @@ fn heavy(corners: u32) -> Document {
 
 /// A document with one raster, and layers to paint on.
 fn light(kind: LayerKind) -> Document {
-    let settings = Settings { layers: Layer::usual(kind), ..Settings::default() };
+    let settings = Settings { layers: Layer::default_stack(kind), ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     document.take_edits();
     document

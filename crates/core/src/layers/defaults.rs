@@ -34,7 +34,7 @@ impl LayerKind {
     /// Returns depths that ask for thirty triangles in the length of a tide. Values are depths where none is
     /// below 0, and else heights. `None` if no pixel has a finite value.
     pub fn depths_of(source: RasterSource, _: &Transfer) -> Option<Self> {
-        Self::depths(source, DepthRule::USUAL_WAVELENGTH)
+        Self::depths(source, DepthRule::DEFAULT_WAVELENGTH)
     }
 
     /// Returns depths as [`Self::depths_of`] does, which ask for nothing.
@@ -45,7 +45,7 @@ impl LayerKind {
     /// Returns the surface of a raster, within a hundredth of the range of its values. `None` if no pixel has
     /// a finite value.
     pub fn surface_of(source: RasterSource, _: &Transfer) -> Option<Self> {
-        let goal = SurfaceGoal::Within(Self::usual_error(&source)?);
+        let goal = SurfaceGoal::Within(Self::default_error(&source)?);
         Some(Self::Surface(Surface {
             source: SurfaceSource::Raster(source),
             goal,
@@ -55,14 +55,14 @@ impl LayerKind {
 
     /// Returns about a hundredth of the range of the values of a raster, as a round number. `None` if no
     /// pixel has a finite value.
-    pub fn usual_error(source: &RasterSource) -> Option<f64> {
+    pub fn default_error(source: &RasterSource) -> Option<f64> {
         let range = source.raster.finite_range()?;
         let hundredth = 0.01 * (f64::from(range.greatest) - f64::from(range.least));
         Some(if hundredth > 0.0 { round_below(hundredth) } else { 1.0 })
     }
 
     /// Returns a hill in the middle of a domain as a surface, within a hundredth of its height.
-    pub fn usual_surface(bounds: &Rect) -> Self {
+    pub fn default_surface(bounds: &Rect) -> Self {
         let (at, width) = (bounds.center(), round_below(0.25 * bounds.size().min_element()));
         let text = format!("exp(-((x - {})^2 + (y - {})^2) / {width}^2)", at.x, at.y);
         let formula = Formula::parse(&text).unwrap_or_else(|_| Formula::constant_of(0.0));

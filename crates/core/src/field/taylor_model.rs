@@ -1,27 +1,28 @@
-//! Quadratic models of functions over a rectangle.
+//! Taylor models of degree 2: polynomials near functions over a rectangle, with a bound of the remainder.
 
 use super::Bounds;
 
-/// A function over a rectangle, as a polynomial of degree 2 and the largest distance from it.
+/// A Taylor model of a function over a rectangle: a polynomial of degree 2 and a bound of the remainder, the
+/// distance from it.
 ///
 /// ```text
-///  |         .-'  polynomial + rest        u and v are the coordinates in the rectangle, from −1 to 1.
-///  |     _.-'  .  the function             |f(u, v) − p(u, v)| ≤ rest, for the values as computed in f64:
-///  | .-'' . ''  _.-'                       every operation adds what its rounding can change.
-///  | . ' ' _.-''  polynomial − rest
+///  |         .-'  p + remainder    u and v are the coordinates in the rectangle, from −1 to 1.
+///  |     _.-'  .  the function     |f(u, v) − p(u, v)| ≤ remainder, for the values as computed in f64:
+///  | .-'' . ''  _.-'               every operation adds what its rounding can change.
+///  | . ' ' _.-''  p − remainder
 ///  |___.-''____________________
 /// ```
 ///
-/// The rest shrinks with the third power of the side of the rectangle where a function is smooth. Bounds of
-/// the function over any part of the rectangle follow from the polynomial alone, however long the formula of
-/// the function is.
+/// The remainder shrinks with the third power of the side of the rectangle where a function is smooth. Bounds
+/// of the function over any part of the rectangle follow from the polynomial alone, however long the formula
+/// of the function is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quadratic {
+pub struct TaylorModel {
     /// The coefficients of 1, u, v, u², uv and v².
     coefficients: [f64; 6],
-    /// The largest distance from the polynomial: not negative, and infinite if the function may not be a
+    /// A bound of the distance from the polynomial: not negative, and infinite if the function may not be a
     /// finite number.
-    rest: f64,
+    remainder: f64,
 }
 
 /// Half a unit in the last place of 1, doubled: a bound of the relative error of an operation.
@@ -30,24 +31,24 @@ const EPSILON: f64 = f64::EPSILON;
 /// More than what underflow can change in an operation.
 const TINY: f64 = 1e-300;
 
-impl Quadratic {
+impl TaylorModel {
     /// A function of which nothing is known.
-    pub const UNKNOWN: Self = Self { coefficients: [0.0; 6], rest: f64::INFINITY };
+    pub const UNKNOWN: Self = Self { coefficients: [0.0; 6], remainder: f64::INFINITY };
 
     /// Returns one number everywhere.
     pub const fn constant(value: f64) -> Self {
         if value.is_finite() {
-            Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], rest: 0.0 }
+            Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], remainder: 0.0 }
         } else {
             Self::UNKNOWN
         }
     }
 
-    /// Returns a coordinate: `middle` ± `half` along axis 0 or 1, for numbers within `rest` of it.
-    pub fn coordinate(axis: usize, middle: f64, half: f64, rest: f64) -> Self {
+    /// Returns a coordinate: `middle` ± `half` along axis 0 or 1, for numbers within `remainder` of it.
+    pub fn coordinate(axis: usize, middle: f64, half: f64, remainder: f64) -> Self {
         let mut coefficients = [middle, 0.0, 0.0, 0.0, 0.0, 0.0];
         coefficients[1 + axis] = half;
-        Self { coefficients, rest }
+        Self { coefficients, remainder }
     }
 
     /// Returns a function of which bounds are known.
@@ -59,14 +60,14 @@ impl Quadratic {
             return Self::constant(least);
         }
         let middle = 0.5 * least + 0.5 * greatest;
-        let rest = (greatest - middle).max(middle - least) * (1.0 + EPSILON) + TINY;
-        Self { rest, ..Self::constant(middle) }
+        let remainder = (greatest - middle).max(middle - least) * (1.0 + EPSILON) + TINY;
+        Self { remainder, ..Self::constant(middle) }
     }
 
     /// Creates a polynomial and the largest distance from it.
-    pub fn new(coefficients: [f64; 6], rest: f64) -> Self {
-        let is_known = rest.is_finite() && coefficients.iter().all(|c| c.is_finite());
-        if is_known { Self { coefficients, rest } } else { Self::UNKNOWN }
+    pub fn new(coefficients: [f64; 6], remainder: f64) -> Self {
+        let is_known = remainder.is_finite() && coefficients.iter().all(|c| c.is_finite());
+        if is_known { Self { coefficients, remainder } } else { Self::UNKNOWN }
     }
 
     /// Returns the coefficients of 1, u, v, u², uv and v².
@@ -75,8 +76,8 @@ impl Quadratic {
     }
 
     /// Returns the largest distance from the polynomial.
-    pub fn rest(&self) -> f64 {
-        self.rest
+    pub fn remainder(&self) -> f64 {
+        self.remainder
     }
 
     /// Returns the value of the polynomial in the middle of the rectangle.
@@ -86,12 +87,12 @@ impl Quadratic {
 
     /// Returns whether the function is known to be one number.
     pub fn is_constant(&self) -> bool {
-        self.rest == 0.0 && self.coefficients[1..].iter().all(|&c| c == 0.0)
+        self.remainder == 0.0 && self.coefficients[1..].iter().all(|&c| c == 0.0)
     }
 
-    /// Returns this model with `rest` added to the distance from the polynomial.
-    pub fn loosened(&self, rest: f64) -> Self {
-        Self::new(self.coefficients, self.rest + rest)
+    /// Returns this model with `remainder` added to the distance from the polynomial.
+    pub fn loosened(&self, remainder: f64) -> Self {
+        Self::new(self.coefficients, self.remainder + remainder)
     }
 
     /// Returns how much the linear terms, and how much the quadratic ones, can change the value.
@@ -103,7 +104,7 @@ impl Quadratic {
     /// Returns an upper bound of the absolute values.
     pub fn size(&self) -> f64 {
         let [linear, bend] = self.reach();
-        self.coefficients[0].abs() + linear + bend + self.rest
+        self.coefficients[0].abs() + linear + bend + self.remainder
     }
 
     /// Returns bounds over the whole rectangle.
@@ -121,9 +122,9 @@ impl Quadratic {
         let slope_v = cv + 2.0 * cvv * v + cuv * u;
         let linear = slope_u.abs() * half_u + slope_v.abs() * half_v + (cuv * half_u * half_v).abs();
         let (uu, vv) = (cuu * half_u * half_u, cvv * half_v * half_v);
-        let rest = self.rest + if self.is_constant() { 0.0 } else { 32.0 * EPSILON * self.size() };
-        let least = value - linear + uu.min(0.0) + vv.min(0.0) - rest;
-        let greatest = value + linear + uu.max(0.0) + vv.max(0.0) + rest;
+        let remainder = self.remainder + if self.is_constant() { 0.0 } else { 32.0 * EPSILON * self.size() };
+        let least = value - linear + uu.min(0.0) + vv.min(0.0) - remainder;
+        let greatest = value + linear + uu.max(0.0) + vv.max(0.0) + remainder;
         if least.is_finite() && greatest.is_finite() {
             Bounds::new(least, greatest)
         } else {
@@ -155,9 +156,9 @@ impl Quadratic {
         if at.iter().all(|v| v.abs() <= 1.0 + 1e-6) {
             join(value(at));
         }
-        let rest = self.rest + 64.0 * EPSILON * self.size();
-        let is_known = least.is_finite() && greatest.is_finite() && rest.is_finite();
-        if is_known { Bounds::new(least - rest, greatest + rest) } else { Bounds::ANYTHING }
+        let remainder = self.remainder + 64.0 * EPSILON * self.size();
+        let is_known = least.is_finite() && greatest.is_finite() && remainder.is_finite();
+        if is_known { Bounds::new(least - remainder, greatest + remainder) } else { Bounds::ANYTHING }
     }
 
     /// −f.
@@ -180,11 +181,11 @@ impl Quadratic {
         let (a, b) = (&self.coefficients, &other.coefficients);
         let coefficients = std::array::from_fn(|n| factor * a[n] + other_factor * b[n]);
         let size = factor.abs() * self.size() + other_factor.abs() * other.size();
-        let rest = factor.abs() * self.rest + other_factor.abs() * other.rest;
-        Self::new(coefficients, rest + 4.0 * EPSILON * size + TINY)
+        let remainder = factor.abs() * self.remainder + other_factor.abs() * other.remainder;
+        Self::new(coefficients, remainder + 4.0 * EPSILON * size + TINY)
     }
 
-    /// Products of more than two linear factors count as rest.
+    /// Products of more than two linear factors count as part of the remainder.
     pub fn times(&self, other: &Self) -> Self {
         if other.is_constant() {
             return self.scaled(other.middle());
@@ -205,14 +206,14 @@ impl Quadratic {
         let ([linear, bend], [other_linear, other_bend]) = (self.reach(), other.reach());
         let (size, other_size) = (self.size(), other.size());
         let cut_off = linear * other_bend + bend * (other_linear + other_bend);
-        let rest = cut_off + size * other.rest + other_size * self.rest;
-        Self::new(coefficients, rest + 16.0 * EPSILON * size * other_size + TINY)
+        let remainder = cut_off + size * other.remainder + other_size * self.remainder;
+        Self::new(coefficients, remainder + 16.0 * EPSILON * size * other_size + TINY)
     }
 
     /// Returns a product with a number.
     fn scaled(&self, factor: f64) -> Self {
-        let rest = factor.abs() * self.rest + 4.0 * EPSILON * factor.abs() * self.size() + TINY;
-        Self::new(self.coefficients.map(|c| factor * c), rest)
+        let remainder = factor.abs() * self.remainder + 4.0 * EPSILON * factor.abs() * self.size() + TINY;
+        Self::new(self.coefficients.map(|c| factor * c), remainder)
     }
 
     /// f².
@@ -267,13 +268,13 @@ impl Quadratic {
             slope * uv + 2.0 * bend * u * v,
             slope * vv + bend * v * v,
         ];
-        let ([linear, curved], own) = (self.reach(), self.rest);
+        let ([linear, curved], own) = (self.reach(), self.remainder);
         let step = linear + curved + own;
         // (linear + curved + own)² without linear².
         let beyond = (2.0 * linear + curved) * curved + (2.0 * (linear + curved) + own) * own;
-        let rest = slope.abs() * own + bend.abs() * beyond + third * step * step * step + error;
+        let remainder = slope.abs() * own + bend.abs() * beyond + third * step * step * step + error;
         let rounding = 32.0 * EPSILON * (value.abs() + slope.abs() * step + bend.abs() * step * step);
-        Self::new(coefficients, rest * (1.0 + 1e-12) + rounding + TINY)
+        Self::new(coefficients, remainder * (1.0 + 1e-12) + rounding + TINY)
     }
 
     /// Returns the larger of two.
@@ -312,19 +313,19 @@ impl Quadratic {
             return *self;
         }
         let apart = self.minus(other).bounds();
-        let rest = 0.5 * apart.least.abs().max(apart.greatest.abs());
+        let remainder = 0.5 * apart.least.abs().max(apart.greatest.abs());
         let middle = self.weighted(0.5, other, 0.5);
-        Self::new(middle.coefficients, middle.rest + rest)
+        Self::new(middle.coefficients, middle.remainder + remainder)
     }
 
-    /// Returns this model or the one made from `bounds`, whichever has the smaller rest. Calls `bounds` only
-    /// if this model is coarse.
+    /// Returns this model or the one made from `bounds`, whichever has the smaller remainder. Calls `bounds`
+    /// only if this model is coarse.
     pub fn or_bounds(self, bounds: impl FnOnce() -> Bounds) -> Self {
         let [linear, bend] = self.reach();
-        if self.rest <= linear + bend {
+        if self.remainder <= linear + bend {
             return self;
         }
         let other = Self::from_bounds(bounds());
-        if other.rest < self.rest { other } else { self }
+        if other.remainder < self.remainder { other } else { self }
     }
 }
