@@ -1,6 +1,6 @@
 //! The sections and settings that the palette puts in sight.
 
-use crate::app::kit::Place;
+use meshbrush_kit::kit::Place;
 
 /// The places, section by section.
 pub static PLACES: [Place; 27] = [

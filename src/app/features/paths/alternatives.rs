@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::finder::Key;
 use super::prover::Known;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::path::{Alternatives, Difference, Solution};
+use meshbrush_kit::kit::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_mesh::geometry::nearest_on_segment;
 use meshbrush_mesh::mesh::Progress;
 

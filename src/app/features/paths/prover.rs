@@ -4,11 +4,11 @@
 use std::sync::Arc;
 
 use super::work::FoundPath;
-use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
 };
+use meshbrush_kit::kit::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_mesh::mesh::Progress;
 
 /// Certifies one path after the other.
