@@ -9,7 +9,7 @@ use meshbrush_core::paint::{Brush, Medium};
 
 /// `FRAME_BUDGET` in `app/frame.rs`.
 pub const FRAME_BUDGET: Duration = Duration::from_millis(7);
-/// `SLICE` in `app/slices.rs`.
+/// `SLICE` in `kit/slices.rs`.
 pub const SLICE: usize = 2048;
 /// The default brush on the unit square.
 pub const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
@@ -21,7 +21,7 @@ pub fn wave(height: f64, fine: f64) -> LayerKind {
     LayerKind::target(Formula::parse(&formula).expect("a valid formula"))
 }
 
-/// Work in slices, as `app/slices.rs` does it.
+/// Work in slices, as `kit/slices.rs` does it.
 #[derive(Default)]
 pub struct Slices {
     pace: Pace,

@@ -1,10 +1,10 @@
 //! The contour lines of h̄ on the canvas. They are computed on another thread: a large field takes longer
 //! than a frame.
 
-use super::jobs::{Jobs, Slot, Wanted};
 use meshbrush_core::document::Follower;
 use meshbrush_core::field::{Contour, contours};
 use meshbrush_core::layers::PaintLayers;
+use meshbrush_kit::kit::jobs::{Jobs, Slot, Wanted};
 use meshbrush_mesh::geometry::Rect;
 
 /// Levels that have contour lines.

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::command::{Command, FileCommand, ShellCommand};
 use super::features::ROWS;
-use crate::app::kit::{FileAct, FileKind, FileRequest};
 use meshbrush_io::io::project::ENDING;
 use meshbrush_io::io::{RasterFormat, recipe, recording, shape_format};
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{FileAct, FileKind, FileRequest};
 use meshbrush_render::render::export::ExportFormat;
 
 /// Returns the kinds of files to open by ending: the first one that accepts the ending counts.

@@ -6,13 +6,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, cancelled, exported, listed};
-use super::command::{Command, FileCommand, Opened, ShellCommand};
 use super::host::asset;
-use super::kit::Keymap;
-use super::session::Session;
+use meshbrush_kit::kit::Keymap;
+use meshbrush_kit::kit::background::{Aim, Background, Outcome, cancelled, exported, listed};
+use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
+use meshbrush_kit::kit::session::Session;
 
-use super::view::{Space, View};
 use meshbrush_core::document::{
     Document, Example, ExampleData, ExampleMaking, Recording, SeaChart, Settings,
 };
@@ -28,6 +27,7 @@ use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
 use meshbrush_io::io::{
     self, DEPTH, MeshData, MeshSource, NodeValues, Provenance, SURFACE, ThirdCoordinate, recording,
 };
+use meshbrush_kit::kit::view::{Space, View};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Fingerprint, MeshView};
 use meshbrush_mesh::text::{Bytes, Grouped};

@@ -12,26 +12,27 @@
 //! `advance` also runs while the window is hidden or the canvas has no room. The pointer acts on the canvas
 //! where it was in the last frame, and the mesh that it changed is drawn in the same frame.
 
-use crate::app::clock::{Duration, Instant};
 use crate::app::features::report::Report;
 use crate::app::features::stepping::Stepping;
+use meshbrush_kit::kit::clock::{Duration, Instant};
 
 use eframe::egui::{self, Context, Event, Frame, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
 use super::App;
 use super::canvas::Toast;
 use super::catalog::catalog;
-use super::command::{Command, ShellCommand};
 use super::dialogs::FileFacts;
 use super::features::{LAYER_KINDS, stepping};
 use super::host;
 use super::journal::JournalKeeper;
 use super::keys::{KeyPress, Receiver};
-use super::platform::IS_PAGE;
-use super::readout::Readout;
-use super::{help, journal, keys, panels, presentation, replacing};
-use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
+use super::{help, journal, keys, panels, replacing};
 use meshbrush_core::document::Settings;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_kit::kit::platform::IS_PAGE;
+use meshbrush_kit::kit::presentation;
+use meshbrush_kit::kit::readout::Readout;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::{degrees, shown_keys};
 

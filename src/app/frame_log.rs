@@ -1,9 +1,9 @@
 //! A line on standard error for each frame, for whoever measures how long frames take.
 
-use crate::app::clock::{SystemTime, UNIX_EPOCH};
+use meshbrush_kit::kit::clock::{SystemTime, UNIX_EPOCH};
 
-use super::notices::{Notice, Notices};
-use super::session::Session;
+use meshbrush_kit::kit::notices::{Notice, Notices};
+use meshbrush_kit::kit::session::Session;
 
 /// Environment variable that asks for the lines. `tests/frame_times.py` and `tests/random_events.py` read
 /// them.

@@ -1,7 +1,7 @@
 //! The changed keys, kept from run to run in the window's own storage.
 
 use super::App;
-use super::kit::Keymap;
+use meshbrush_kit::kit::Keymap;
 
 /// Where the changed keys are in the storage.
 const KEYS_KEY: &str = "keys";
@@ -42,8 +42,8 @@ mod tests {
     use eframe::Storage as _;
 
     use super::*;
-    use crate::app::command::{Command, ShellCommand};
     use crate::app::tests::{Kept, notice, send, window};
+    use meshbrush_kit::kit::command::{Command, ShellCommand};
 
     #[test]
     fn keys_that_cannot_be_read_are_reported_and_stay_until_others_are_chosen() {

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
 
-use crate::app::kit::CatalogItem;
+use meshbrush_kit::kit::CatalogItem;
 use meshbrush_ui::widgets::key_menu::MENU_KEYS;
 
 /// The part of the window that a key goes to first.

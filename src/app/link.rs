@@ -6,14 +6,13 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::App;
-use super::command::{Command, FileCommand, Opened, ShellCommand, SpaceCommand, ViewCommand};
 use super::features::stepping::StepCommand;
 use super::files::new_document;
-use super::view::View;
 use crate::app::features::stepping::Stepping;
 use meshbrush_io::io::link::{self, LinkSpace, LinkView, Linked};
+use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand, SpaceCommand, ViewCommand};
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_render::scene::{Camera, ViewDirection};
+use meshbrush_render::scene::ViewDirection;
 
 /// Returns the part of a link after `#`, where a name of a file is a link to a page of the program, or that
 /// part alone.
@@ -80,22 +79,6 @@ impl App {
         }
         if let Some(problem) = problem {
             self.send(Command::from(FileCommand::Fail(problem)));
-        }
-    }
-}
-
-impl View {
-    /// Shows an area, in world units, as large as it fits.
-    pub(super) fn show_area(&mut self, area: Rect) {
-        self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
-    }
-
-    /// Shows the area that is wanted of the domain with these bounds, if one is.
-    pub(super) fn show_wanted_area(&mut self, bounds: Rect) {
-        if let Some([_, area]) = self.wanted_area.take_if(|[of, _]| *of == bounds) {
-            let height = self.space.middle();
-            self.show_area(area);
-            self.space.keep_height(height);
         }
     }
 }

@@ -5,60 +5,32 @@
 //! commands run and when things are drawn, `execute` what a command does. Tools, panels and export formats
 //! are tables with a file for each entry.
 
-mod ages;
-mod background;
-mod boundary;
-mod brake;
-mod busy;
 mod canvas;
-mod canvas_aids;
 mod catalog;
-mod clock;
-pub mod command;
 mod contours;
-mod cuts;
-mod derivation;
 #[cfg(not(target_family = "wasm"))]
 mod desktop;
 mod dialogs;
-mod dock;
-mod document_id;
 mod execute;
 mod features;
 mod file_kinds;
 mod files;
 mod frame;
 mod frame_log;
-mod heights;
 mod help;
-mod home;
-mod jobs;
+mod kept;
 mod kept_keys;
 mod keys;
-mod kit;
-mod layer_edits;
 mod link;
 mod next_document;
-mod notices;
 mod panels;
 mod parts;
-mod platform;
-mod presentation;
-mod project;
 
-pub mod readout;
-mod recovery;
 mod replacing;
 mod screenshots;
-pub mod session;
-mod size_change;
-mod slices;
 mod software_window;
 #[cfg(test)]
 mod tests;
-mod threads;
-pub mod tools;
-pub mod view;
 #[cfg(target_family = "wasm")]
 mod web;
 
@@ -69,11 +41,7 @@ use std::sync::Arc;
 use eframe::egui::{Context, Ui};
 use eframe::egui_wgpu;
 
-use background::Background;
 use canvas::{Canvas, CanvasGpu};
-use clock::{Duration, Instant};
-use command::HelpTopic;
-use command::{Command, FileCommand};
 #[cfg(not(target_family = "wasm"))]
 use desktop as host;
 use dialogs::Dialogs;
@@ -81,16 +49,20 @@ use features::ROWS;
 use frame_log::FrameLog;
 use host::journal;
 pub use host::run;
-use jobs::Jobs;
 use journal::JournalKeeper;
-use kit::{Features, Keymap, all_tools};
-use platform::IS_PAGE;
-use project::ProjectFile;
+use meshbrush_kit::kit::background::Background;
+use meshbrush_kit::kit::clock::{Duration, Instant};
+use meshbrush_kit::kit::command::HelpTopic;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::jobs::Jobs;
+use meshbrush_kit::kit::platform::IS_PAGE;
+use meshbrush_kit::kit::project::ProjectFile;
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::threads::Threads;
+use meshbrush_kit::kit::tools::{KeptBrush, Tools};
+use meshbrush_kit::kit::view::View;
+use meshbrush_kit::kit::{Features, Keymap, all_tools};
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
-use session::Session;
-use threads::Threads;
-use tools::{KeptBrush, Tools};
-use view::View;
 #[cfg(target_family = "wasm")]
 use web as host;
 
@@ -234,12 +206,12 @@ impl App {
     /// Keeps recent files, the theme and unsaved work from run to run.
     fn keep_in(&mut self, cc: &eframe::CreationContext<'_>) {
         if let Some(storage) = cc.storage {
-            self.project.load(storage);
+            kept::load_recent(&mut self.project, storage);
             self.dialogs.load(storage);
-            self.view.dock.load(storage);
+            kept::load_tab(&mut self.view.dock, storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
-            presentation::end_last(storage, &cc.egui_ctx);
+            kept::end_last_presentation(storage, &cc.egui_ctx);
             self.load_keys(storage);
             self.load_brush(storage);
             if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
@@ -315,12 +287,12 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        self.project.store(storage);
+        kept::store_recent(&self.project, storage);
         self.dialogs.store(storage);
         self.store_keys(storage);
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
-        self.view.dock.store(storage);
-        presentation::store(self.view.presentation, storage);
+        kept::store_tab(&self.view.dock, storage);
+        kept::store_presentation(self.view.presentation, storage);
         eframe::set_value(storage, THREADS_KEY, &self.threads.limit());
     }
 

@@ -4,13 +4,11 @@
 
 use super::App;
 use super::canvas::Canvas;
-use super::session::Session;
-use super::size_change::SizeChange;
-use meshbrush_core::document::{Document, Pace};
+use meshbrush_core::document::Document;
 
 impl App {
     /// Opens another document in place of the current one. This cannot be undone:
-    /// [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
+    /// [`meshbrush_kit::kit::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
     pub(super) fn show_document(&mut self, document: Document) {
         self.session.replace_document(document);
         self.jobs.work_for(self.session.document_id());
@@ -21,28 +19,5 @@ impl App {
         self.features = std::mem::take(&mut self.features).for_next_document();
         let no_canvas = Canvas::new(None, &self.jobs);
         self.canvas = std::mem::replace(&mut self.canvas, no_canvas).for_next_document();
-    }
-}
-
-impl Session {
-    /// Replaces the document by another one. This cannot be undone. Until its mesh is made, its bare
-    /// rectangle takes the place of the former mesh.
-    pub fn replace_document(&mut self, document: Document) {
-        self.cuts.discard(&mut self.document);
-        self.document.replace_with(document);
-        self.document_id = self.document_id.next();
-        self.follower.show_bare(&self.document);
-        self.bare_revision = Some(self.follower.revision());
-        // Its triangles can be a thousand times as dear.
-        self.pace = Pace::default();
-        self.brake.release();
-        self.size_change = SizeChange::default();
-        self.query(None);
-        self.notices.dismiss();
-    }
-
-    /// Returns whether the document was just opened, and no mesh of it was made yet.
-    pub fn awaits_mesh(&self) -> bool {
-        self.bare_revision == Some(self.follower.revision())
     }
 }

@@ -2,11 +2,11 @@
 
 use eframe::egui::Context;
 
-use super::background::listed;
-use super::command::{Command, FileCommand};
-use super::home::Loss;
-use super::project::Replacing;
-use crate::app::kit::FrameState;
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::background::listed;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::home::Loss;
+use meshbrush_kit::kit::project::Replacing;
 use meshbrush_ui::widgets::ConfirmDialog;
 
 /// Asks about unsaved edits and existing files.
@@ -23,37 +23,35 @@ pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, com
         );
     }
     if let Some(replacing) = &project.replacing {
-        let (question, body) = replacing.question();
+        let (question, body) = question(replacing);
         let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
         commands.extend(dialog.show(ctx).map(|answer| Command::from(FileCommand::AnswerReplacing(answer))));
     }
 }
 
-impl Replacing {
-    /// Returns the question, and what would be lost.
-    fn question(&self) -> (String, String) {
-        let one = match &self.files[..] {
-            [file] => file,
-            files => {
-                let body = format!("The present contents of {} will be lost.", listed(files));
-                return (format!("Replace {} files?", files.len()), body);
-            }
-        };
-        let body = match self.loss {
-            Loss::Contents => "Its present contents will be lost.",
-            Loss::OtherVersion => {
-                "It is not as it was when this document was opened or saved: somebody else changed it. What they saved \
-                 will be lost. Cancel, and save this document under another name to keep both."
-            }
-            Loss::ReadOnly => {
-                "It is read-only, so somebody wants to keep it as it is. Its present contents will be lost. Cancel, and save \
-                 this document under another name to keep both."
-            }
-            Loss::OtherWindow => {
-                "It is open in another window of Meshbrush, too. What that window saved, or saves later, and what you save \
-                 here replace each other. Cancel, and save this document under another name to keep both."
-            }
-        };
-        (format!("Replace {}?", one.display()), body.into())
-    }
+/// Returns the question, and what would be lost.
+fn question(replacing: &Replacing) -> (String, String) {
+    let one = match &replacing.files[..] {
+        [file] => file,
+        files => {
+            let body = format!("The present contents of {} will be lost.", listed(files));
+            return (format!("Replace {} files?", files.len()), body);
+        }
+    };
+    let body = match replacing.loss {
+        Loss::Contents => "Its present contents will be lost.",
+        Loss::OtherVersion => {
+            "It is not as it was when this document was opened or saved: somebody else changed it. What they saved \
+             will be lost. Cancel, and save this document under another name to keep both."
+        }
+        Loss::ReadOnly => {
+            "It is read-only, so somebody wants to keep it as it is. Its present contents will be lost. Cancel, and save \
+             this document under another name to keep both."
+        }
+        Loss::OtherWindow => {
+            "It is open in another window of Meshbrush, too. What that window saved, or saves later, and what you save \
+             here replace each other. Cancel, and save this document under another name to keep both."
+        }
+    };
+    (format!("Replace {}?", one.display()), body.into())
 }

@@ -10,7 +10,7 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 30] = [
+const MODULES: [&str; 31] = [
     "text",
     "geometry",
     "mesh",
@@ -40,11 +40,12 @@ const MODULES: [&str; 30] = [
     "cli",
     "theme",
     "widgets",
+    "kit",
     "app",
 ];
 
 /// The modules of the window.
-const OF_WINDOW: [&str; 3] = ["theme", "widgets", "app"];
+const OF_WINDOW: [&str; 4] = ["theme", "widgets", "kit", "app"];
 
 /// What `src/lib.rs` declares besides: documentation.
 const OTHER_MODULES: [&str; 1] = ["guide"];
@@ -320,7 +321,8 @@ const WAITS: [(&str, &str); 2] = [
 #[test]
 fn only_jobs_start_threads_wait_and_catch_panics() {
     let window = files().filter(|file| is_of_window(file));
-    let others: Vec<&SourceFile> = window.filter(|file| !file.path.starts_with("src/app/jobs/")).collect();
+    let others: Vec<&SourceFile> =
+        window.filter(|file| !file.path.starts_with("crates/kit/src/kit/jobs/")).collect();
     let listed: Vec<String> = WAITS.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
     for word in ["spawn", "catch_unwind", "recv_timeout", "sleep"] {
@@ -340,7 +342,7 @@ fn only_jobs_start_threads_wait_and_catch_panics() {
 /// of tools.
 const NAMES_A_TOOL: [(&str, &str); 4] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/kit/features.rs", "the tool that moves the view belongs to no feature"),
+    ("crates/kit/src/kit/features.rs", "the tool that moves the view belongs to no feature"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
 ];
@@ -359,9 +361,8 @@ fn tools_of(file: &SourceFile) -> Vec<(String, String)> {
 
 #[test]
 fn a_tool_is_one_file_and_one_entry_of_the_table() {
-    let window = files().filter(|file| file.path.starts_with("src/app/"));
-    let tools: Vec<(String, String)> =
-        files().filter(|file| file.top_module() == "app").flat_map(tools_of).collect();
+    let window = files().filter(|file| is_of_window(file));
+    let tools: Vec<(String, String)> = files().filter(|file| is_of_window(file)).flat_map(tools_of).collect();
     assert!(tools.len() >= 8, "there are tools");
     let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
@@ -381,66 +382,21 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
     assert_needed(&listed, &met, "NAMES_A_TOOL");
 }
 
-/// The parts of the window, lowest first: each imports only from itself and from parts before it. Whatever is
-/// in no list is of the shell: frame, menus, panels, canvas, dialogs, and what is in no folder of a feature
-/// yet.
-const WINDOW: [(&str, &[&str]); 2] = [
-    (
-        "shared",
-        &[
-            "ages",
-            "background",
-            "boundary",
-            "brake",
-            "busy",
-            "canvas_aids",
-            "clock",
-            "command",
-            "cuts",
-            "derivation",
-            "dock",
-            "document_id",
-            "heights",
-            "home",
-            "jobs",
-            "kit",
-            "layer_edits",
-            "notices",
-            "platform",
-            "presentation",
-            "project",
-            "readout",
-            "recovery",
-            "session",
-            "size_change",
-            "slices",
-            "threads",
-            "tools",
-            "view",
-        ],
-    ),
-    ("features", &["features"]),
-];
-
-fn part_of_window(module: &str) -> usize {
-    WINDOW.iter().position(|(_, modules)| modules.contains(&module)).unwrap_or(WINDOW.len())
-}
-
 #[test]
-fn the_parts_of_the_window_import_downwards() {
+fn no_feature_imports_the_shell() {
     let mut found = Vec::new();
-    let in_folder = |file: &&SourceFile| file.top_module() == "app" && file.module.len() > 1;
-    // The table of features is what the shell reads: it knows them and the window.
-    for file in files().filter(in_folder).filter(|file| file.module != ["app", "features"]) {
-        let own = part_of_window(&file.module[1]);
+    for file in files().filter(|file| file.path.starts_with("src/app/features/")) {
         for path in file.paths() {
             let [first, second, module, ..] = &path.segments[..] else { continue };
-            if first == "crate" && second == "app" && part_of_window(module) > own {
+            if first == "crate" && second == "app" && module != "features" {
                 found.push(format!("{}:{} imports from {module}", file.path, path.line));
             }
         }
     }
-    assert_none(found, "in the window the order is what all share, features, shell:");
+    assert_none(
+        found,
+        "frame, menus, panels, canvas and dialogs know the features, and not the other way round:",
+    );
 }
 
 #[test]
@@ -509,8 +465,7 @@ const FEATURES: [&str; 3] = ["crate", "app", "features"];
 
 #[test]
 fn every_command_has_an_arm() {
-    let window = files().filter(|file| file.path.starts_with("src/app/"));
-    let window = window.filter(|file| !file.path.contains("/tests"));
+    let window = files().filter(|file| is_of_window(file) && !file.path.contains("/tests"));
     assert_none(with_word(window, "unreachable"), "the compiler knows what the window does with a value:");
 }
 

@@ -3,9 +3,9 @@
 use eframe::egui::{Painter, Rect};
 
 use super::Canvas;
-use crate::app::kit::marks;
-use crate::app::session::Session;
-use crate::app::view::View;
+use meshbrush_kit::kit::marks;
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::View;
 use meshbrush_render::scene::Camera;
 
 /// Most corners of contour lines that a frame draws.

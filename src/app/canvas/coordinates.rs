@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 use glam::{DVec2, dvec2};
 
-use crate::app::kit::FrameState;
+use meshbrush_kit::kit::FrameState;
 use meshbrush_mesh::text::{LengthUnit, round_below};
 use meshbrush_render::render::north_arrow::north_arrow;
 use meshbrush_render::scene::Camera;

@@ -5,14 +5,15 @@ use std::time::Duration;
 use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
 use super::{Canvas, coordinates, legend, menu, navigation, way_back};
-use crate::app::background::ProgressRow;
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
+
 use crate::app::features::painting::show_limit_offer;
 use crate::app::features::picture::show_corners;
-use crate::app::kit::FrameState;
-use crate::app::notices::Notice;
-use crate::app::session::Session;
 use meshbrush_core::document::{DrawnPart, Stage};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::background::ProgressRow;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand};
+use meshbrush_kit::kit::notices::Notice;
+use meshbrush_kit::kit::session::Session;
 use meshbrush_ui::widgets::{
     Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row,
 };

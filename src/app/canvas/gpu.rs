@@ -6,12 +6,12 @@ use eframe::egui;
 use eframe::egui_wgpu::{self, CallbackResources, CallbackTrait, RenderState, ScreenDescriptor};
 use eframe::wgpu;
 
-use crate::app::derivation::PiecesChange;
-use crate::app::derivation::ShownChange;
-use crate::app::heights::Surface;
-use crate::app::session::Session;
 use crate::app::software_window::CanvasImage;
 use meshbrush_core::document::MeshChange;
+use meshbrush_kit::kit::derivation::PiecesChange;
+use meshbrush_kit::kit::derivation::ShownChange;
+use meshbrush_kit::kit::heights::Surface;
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
 use meshbrush_render::scene::{Camera, Overlay, ShownMesh, ShownRevision, SpaceView, Style};

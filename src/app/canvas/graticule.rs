@@ -3,8 +3,8 @@
 use eframe::egui::{Align2, Pos2, Rect, Ui, pos2};
 
 use super::coordinates::paint_label;
-use crate::app::kit::{FrameState, marks};
 use meshbrush_core::earth::{EarthPlane, graticule};
+use meshbrush_kit::kit::{FrameState, marks};
 use meshbrush_render::scene::Camera;
 use meshbrush_ui::theme::tokens;
 

@@ -4,9 +4,9 @@ use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos
 
 use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
-use crate::app::kit::FrameState;
-use crate::app::view::{FieldOverlay, deepest_level};
 use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::view::{FieldOverlay, deepest_level};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_study::relief::isobath_interval;
 use meshbrush_ui::theme::{font, tokens};

@@ -5,13 +5,13 @@ use glam::DVec2;
 
 use super::Canvas;
 use super::space::space_sight;
-use crate::app::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
 use crate::app::features::inspection::InspectCommand;
-use crate::app::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
-use crate::app::session::Session;
-use crate::app::tools::Tools;
-use crate::app::view::View;
+use meshbrush_kit::kit::command::{BrushCommand, Command, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::tools::Tools;
+use meshbrush_kit::kit::view::View;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
 use meshbrush_ui::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
 /// Identifies the menu, and where it was opened in egui's memory.

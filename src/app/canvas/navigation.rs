@@ -5,9 +5,9 @@ use eframe::egui::{
 };
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, SpaceCommand, ViewCommand};
-use crate::app::kit::Pointer;
-use crate::app::view::View;
+use meshbrush_kit::kit::Pointer;
+use meshbrush_kit::kit::command::{Command, SpaceCommand, ViewCommand};
+use meshbrush_kit::kit::view::View;
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_ui::theme::tokens;
 

@@ -4,16 +4,16 @@
 use std::sync::Arc;
 
 use super::super::contours::pixels_over;
-use super::super::derivation::Derived;
-use super::super::jobs::{Jobs, Slot, Wanted};
-use super::super::session::Session;
-use super::super::view::FieldOverlay;
 use super::overlay_palette::OverlayPalette;
 use super::relief_colors::ReliefColors;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::layers::{DepthSurface, Layer, PaintLayers, SettledSquares, SizeField};
 use meshbrush_core::raster::Raster;
 use meshbrush_core::surface::SurfaceRule;
+use meshbrush_kit::kit::derivation::Derived;
+use meshbrush_kit::kit::jobs::{Jobs, Slot, Wanted};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::scene::{Camera, Overlay};
@@ -267,8 +267,8 @@ mod tests {
 
     use super::*;
     use crate::app::files::example;
-    use crate::app::jobs::JobKind;
-    use crate::app::view::View;
+    use meshbrush_kit::kit::jobs::JobKind;
+    use meshbrush_kit::kit::view::View;
 
     #[test]
     fn an_overlay_that_is_shown_and_hidden_many_times_is_computed_once_at_a_time() {

@@ -4,10 +4,10 @@ use eframe::egui::{Context, Key, PointerButton, TouchPhase};
 
 use super::menu;
 use super::space::only_in_plan;
-use crate::app::command::{Command, ShellCommand};
-use crate::app::kit::{Gesture, Pointer, Press};
-use crate::app::platform::IS_PAGE;
-use crate::app::tools::move_view;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_kit::kit::platform::IS_PAGE;
+use meshbrush_kit::kit::tools::move_view;
+use meshbrush_kit::kit::{Gesture, Pointer, Press};
 
 /// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted. In a page fingers have a force, too,
 /// and the page itself tells of pens.

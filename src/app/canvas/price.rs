@@ -3,11 +3,11 @@
 use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
 use crate::app::features::painting::picks;
-use crate::app::kit::FrameState;
-use crate::app::readout::{Quantity, value_at};
-use crate::app::tools::PaintKind;
 use meshbrush_core::document::{NoChange, NoPaintLayer, Price, Settings};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::readout::{Quantity, value_at};
+use meshbrush_kit::kit::tools::PaintKind;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_mesh::text::short_name;
 use meshbrush_ui::theme::{Tokens, tokens};

@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use super::super::jobs::Slice;
-use super::super::view::FieldOverlay;
 use super::overlay::{OverlayState, Pixels, neutral};
 use super::overlay_palette::{Opaque, lit};
 use meshbrush_core::layers::{DepthSurface, Layer};
 use meshbrush_core::surface::SurfaceRule;
+use meshbrush_kit::kit::jobs::Slice;
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_study::relief::{Relief, ReliefPixel, ReliefSampling};
 
@@ -134,8 +134,8 @@ mod tests {
     use super::*;
     use crate::app::canvas::overlay_palette::OverlayPalette;
     use crate::app::files::example;
-    use crate::app::session::Session;
-    use crate::app::view::View;
+    use meshbrush_kit::kit::session::Session;
+    use meshbrush_kit::kit::view::View;
 
     #[test]
     fn a_level_sea_has_the_colours_of_its_depths() {

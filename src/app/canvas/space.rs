@@ -6,12 +6,12 @@ use eframe::egui::{
 use glam::DVec2;
 
 use super::{Canvas, price};
-use crate::app::command::{Command, ShellCommand};
-use crate::app::heights::{Heights, SpaceSight};
-use crate::app::kit::{FrameState, OverMesh, Tool, marks};
-use crate::app::session::Session;
-use crate::app::view::View;
 use meshbrush_core::paint::Mirror;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_kit::kit::heights::{Heights, SpaceSight};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::View;
+use meshbrush_kit::kit::{FrameState, OverMesh, Tool, marks};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_mesh::mesh::{Progress, TriangleId};
 use meshbrush_render::colormap::Ground;

@@ -3,9 +3,9 @@
 use eframe::egui::{CursorIcon, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::FrameState;
-use crate::app::session::Session;
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::geometry;
 use meshbrush_render::scene::Camera;
 use meshbrush_ui::theme::{font, tokens};

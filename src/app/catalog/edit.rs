@@ -2,13 +2,13 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::domain::DomainTool;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::regions::RegionCommand;
 use crate::app::features::regions::RegionTool;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// History and paint.
 pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -2,7 +2,6 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::{
     ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_AS_IT_IS, OPEN_DOMAIN_IN_METRES, OPEN_SEA,
 };
@@ -10,8 +9,9 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
-use crate::app::platform::IS_PAGE;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::platform::IS_PAGE;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// Recent files in the menu; the palette has all.
 const MOST_RECENT_IN_MENU: usize = 5;

@@ -1,7 +1,7 @@
 //! Gestures of the pointer. The list of keys shows all of them, the menu Tool those that are hard to find.
 
 use crate::app::features::ROWS;
-use crate::app::kit::{GestureHelp, GesturePlace};
+use meshbrush_kit::kit::{GestureHelp, GesturePlace};
 
 /// Returns all of them, by their places.
 pub fn gestures() -> Vec<&'static GestureHelp> {

@@ -2,10 +2,10 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use crate::app::command::HelpTopic;
-use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::kit::{CatalogItem, Menu};
 use meshbrush_core::document::Example;
+use meshbrush_kit::kit::command::HelpTopic;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{CatalogItem, Menu};
 
 /// Documents that come with the program.
 pub fn examples() -> Vec<CatalogItem> {

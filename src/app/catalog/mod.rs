@@ -11,8 +11,8 @@ mod tool;
 mod view;
 
 use super::features::ROWS;
-use crate::app::kit::{CatalogItem, FrameState};
 pub use gestures::gestures;
+use meshbrush_kit::kit::{CatalogItem, FrameState};
 pub use places::PLACES;
 #[cfg(test)]
 pub use synonyms::starts as synonym_starts;

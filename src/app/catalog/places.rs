@@ -1,6 +1,6 @@
 //! The sections and settings that the palette puts in sight.
 
-use crate::app::kit::DockPlace;
+use meshbrush_kit::kit::DockPlace;
 
 /// The places, section by section.
 pub static PLACES: [DockPlace; 28] = [

@@ -1,7 +1,7 @@
 //! The tools in the menu Tool.
 
-use crate::app::command::{Command, ShellCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// Returns an entry for each tool. How they work is set by entries of their features.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -2,9 +2,9 @@
 
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
-use crate::app::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, Tab};
-use crate::app::view::{CanvasAid, FieldOverlay};
+use meshbrush_kit::kit::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
+use meshbrush_kit::kit::view::{CanvasAid, FieldOverlay};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Tab};
 use meshbrush_render::colormap::Colormap;
 use meshbrush_ui::widgets::key_menu::MENU_KEYS;
 

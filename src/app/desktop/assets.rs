@@ -1,6 +1,6 @@
 //! Files that come with the program: they are parts of it.
 
-use crate::app::jobs::{Job, JobKind, Jobs};
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs};
 
 macro_rules! files {
     ($folder:literal: $($file:literal)*) => {

@@ -1,9 +1,9 @@
 //! The desktop's own file dialog, on another thread.
 
-use crate::app::clock::{Duration, Instant};
 use crate::app::dialogs::{SystemAnswer, SystemQuestion};
-use crate::app::jobs::{Job, JobKind, Jobs};
-use crate::app::kit::FileRequest;
+use meshbrush_kit::kit::FileRequest;
+use meshbrush_kit::kit::clock::{Duration, Instant};
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs};
 
 /// A dialog that is answered faster than this has not opened.
 const FASTEST_CANCEL: Duration = Duration::from_millis(150);

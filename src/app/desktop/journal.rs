@@ -17,18 +17,18 @@ use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 
 use eframe::egui::Context;
 
-use crate::app::clock::{Duration, Instant};
-use crate::app::command::Command;
-use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
-use crate::app::kit::EditRecorder;
-use crate::app::project::ProjectFile;
-use crate::app::recovery::{self, now};
-use crate::app::session::Session;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::journal::{self, Abandoned, Journal, Left, Renewal, Renewed};
 use meshbrush_io::io::project::Project;
+use meshbrush_kit::kit::EditRecorder;
+use meshbrush_kit::kit::clock::{Duration, Instant};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::jobs::{Job, JobKind, Output, Taken};
+use meshbrush_kit::kit::project::ProjectFile;
+use meshbrush_kit::kit::recovery::{self, now};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_ui::widgets::Answer;
 
 /// An entry that the thread writes.

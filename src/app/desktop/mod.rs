@@ -9,12 +9,12 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, DroppedFileHandle, vec2};
 
-use super::background::Background;
-use super::command::{Command, FileCommand};
-use super::jobs::Jobs;
 use super::{App, NO_DRIVER, SMALLEST_SIZE, set_up_gpu};
 pub use assets::{asset, fetch};
 pub use file_dialog::{ask, has_dialog};
+use meshbrush_kit::kit::background::Background;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::jobs::Jobs;
 
 /// Identifies the window to the desktop: the name of the desktop entry in `packaging`.
 const APP_ID: &str = "org.meshbrush.Meshbrush";

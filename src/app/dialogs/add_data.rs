@@ -7,10 +7,10 @@ use eframe::egui::{
     TextureHandle, TextureOptions, Ui, vec2,
 };
 
-use crate::app::background::name_of;
-use crate::app::command::{Command, ShellCommand};
 use crate::app::features::ROWS;
-use crate::app::kit::{
+use meshbrush_kit::kit::background::name_of;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_kit::kit::{
     DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, Preview, RasterFacts,
 };
 use meshbrush_mesh::text::LengthUnit;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::app::kit::FileRequest;
 use meshbrush_io::io;
+use meshbrush_kit::kit::FileRequest;
 
 /// Name under which the window's own storage keeps the folders.
 const KEY: &str = "folders";

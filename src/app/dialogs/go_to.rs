@@ -3,9 +3,9 @@
 use eframe::egui::{Align, Context, Id, Key, Layout, RichText, Ui};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, ShellCommand};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::kit::FrameState;
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
 use meshbrush_mesh::mesh::TriangleId;
 use meshbrush_mesh::text::{LengthUnit, typed};
 use meshbrush_ui::theme::{font, tokens};

@@ -16,15 +16,16 @@ use eframe::egui::Context;
 
 use super::REPORT;
 use super::catalog::{PLACES, catalog, words_of};
-use super::command::{Command, FileCommand, ShellCommand, ViewCommand};
-use super::document_id::DocumentId;
 use super::host;
 use super::jobs::Jobs;
-use crate::app::kit::{CatalogItem, DataFile, DockPlace, FileAct, FileRequest, FrameState};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::document_id::DocumentId;
+use meshbrush_kit::kit::jobs::Jobs;
+use meshbrush_kit::kit::{CatalogItem, DataFile, DockPlace, FileAct, FileRequest, FrameState};
 use meshbrush_ui::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use system::{SystemAnswer, SystemQuestion};
 

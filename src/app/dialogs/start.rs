@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use eframe::egui::{Context, RichText, Ui};
 
-use crate::app::background::name_of;
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::domain::OPEN_DOMAIN;
 use crate::app::features::layers::OPEN_VALUES;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::ADD_DATA;
-use crate::app::kit::{FileRequest, FrameState};
 use meshbrush_core::document::Example;
+use meshbrush_kit::kit::background::name_of;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{FileRequest, FrameState};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{ActionButton, ButtonKind, dialog, dialog_title};
 

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use super::DocumentId;
 use crate::app::host;
-use crate::app::jobs::{Job, Jobs, Taken};
-use crate::app::kit::FileRequest;
+use meshbrush_kit::kit::FileRequest;
+use meshbrush_kit::kit::jobs::{Job, Jobs, Taken};
 
 /// A request that is shown in a dialog of the system.
 #[derive(Clone, Debug)]

@@ -6,20 +6,20 @@ use std::sync::Arc;
 use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
-use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
-use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT, opened_kind};
-use crate::app::home::{self, Home, Loss};
 use crate::app::host;
 use crate::app::journal::JournalKeeper;
-use crate::app::kit::EditRecorder as _;
-use crate::app::kit::{FileRequest, look_at, raster_frame};
 use crate::app::{files, link};
 use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::Meter;
+use meshbrush_kit::kit::EditRecorder as _;
+use meshbrush_kit::kit::background::{Aim, Finished, Outcome, WorkId, name_of};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, Opened};
+use meshbrush_kit::kit::home::{self, Home, Loss};
+use meshbrush_kit::kit::{FileRequest, look_at, raster_frame};
 
 impl App {
     /// Opens an example, and shows what it is about.

@@ -8,14 +8,14 @@ mod files;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
 use super::features::LAYER_KINDS;
 use super::help::{missing_pictures, stop_editing_keys};
-use super::notices::Offer;
 use super::{files as file_work, parts};
 use crate::app::features::stepping::Stepping;
-use crate::app::kit::{Ctx, EditRecorder, Features, Tool};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::notices::Offer;
+use meshbrush_kit::kit::{Ctx, EditRecorder, Features, Tool};
 
 impl App {
     /// Runs one command.

@@ -18,11 +18,11 @@ pub mod threats;
 
 use std::sync::LazyLock;
 
-use super::kit::{Feature, Features, LayerKindRow, Row, kinds_of_layers};
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
 use layers::LayerEditor;
+use meshbrush_kit::kit::{Feature, Features, LayerKindRow, Row, kinds_of_layers};
 use painting::Painting;
 use paths::Paths;
 use picture::BackgroundPicture;

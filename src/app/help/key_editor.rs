@@ -2,9 +2,9 @@
 
 use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Modifiers, RichText, Ui};
 
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::file_kinds::{EXPORT_KEYS, IMPORT_KEYS};
-use crate::app::kit::{CatalogItem, Keymap, conflicts, owners, same_keys, shortcut_text};
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{CatalogItem, Keymap, conflicts, owners, same_keys, shortcut_text};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{ActionButton, key_row_button};
 

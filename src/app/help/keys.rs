@@ -6,8 +6,8 @@ use eframe::egui::{Id, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::key_editor::KeyEditor;
 use crate::app::catalog::gestures;
-use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, Keymap, Menu, shortcut_text};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{CatalogItem, Keymap, Menu, shortcut_text};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{SearchField, key_row, matches};
 

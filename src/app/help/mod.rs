@@ -13,8 +13,8 @@ pub use keys::page as keys_page;
 
 use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
-use super::command::{Command, HelpTopic, ShellCommand};
-use crate::app::kit::{CatalogItem, Keymap};
+use meshbrush_kit::kit::command::{Command, HelpTopic, ShellCommand};
+use meshbrush_kit::kit::{CatalogItem, Keymap};
 use meshbrush_ui::theme::tokens_of;
 
 fn title(topic: HelpTopic) -> &'static str {

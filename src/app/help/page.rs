@@ -11,9 +11,9 @@ use egui::text::{LayoutJob, TextFormat};
 
 use super::manual::{Page, page_of};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::{Command, HelpTopic, ShellCommand};
 use crate::app::host::asset;
 use meshbrush_io::io::png::decode_picture;
+use meshbrush_kit::kit::command::{Command, HelpTopic, ShellCommand};
 use meshbrush_ui::theme::{font, metrics, tokens};
 
 /// Space between cells of a table.

@@ -6,7 +6,7 @@ use eframe::egui::{self, Id, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::manual::{PAGES, Page};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::{Command, HelpTopic, ShellCommand};
+use meshbrush_kit::kit::command::{Command, HelpTopic, ShellCommand};
 use meshbrush_ui::theme::{font, metrics, tokens};
 use meshbrush_ui::widgets::SearchField;
 

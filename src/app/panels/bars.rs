@@ -2,8 +2,8 @@
 
 use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
-use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
+use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, menu_item};
 use meshbrush_ui::theme::{font, metrics, tokens};
 use meshbrush_ui::widgets::{Icon, ToolButton};
 

@@ -4,10 +4,10 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use crate::app::brake::Need;
-use crate::app::command::Command;
-use crate::app::kit::{FrameState, Panel, Tab, set_once};
 use meshbrush_core::document::{LEAST_MEMORY, Setting, Settings};
+use meshbrush_kit::kit::brake::Need;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, set_once};
 use meshbrush_mesh::mesh::MemoryLimit;
 use meshbrush_ui::widgets::{NumberRow, Section, ValueRow, format, value_row};
 

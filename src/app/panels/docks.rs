@@ -3,10 +3,10 @@
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::sections;
-use crate::app::command::{Command, ViewCommand};
 use crate::app::features::report::Report;
-use crate::app::kit::{FrameState, Tab};
 use crate::app::parts::{WindowPart, mark};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::{FrameState, Tab};
 use meshbrush_ui::theme::{metrics, tokens};
 use meshbrush_ui::widgets::tab_bar;
 

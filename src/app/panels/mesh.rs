@@ -4,11 +4,11 @@ use std::num::NonZeroUsize;
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, EditCommand, ShellCommand};
-use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
-use crate::app::threads::Threads;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
+use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand};
+use meshbrush_kit::kit::threads::Threads;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use meshbrush_ui::widgets::{NumberRow, Section, SliderRow, segmented, value_row};
 
 /// Coarse spacing, refinement rule and threads.

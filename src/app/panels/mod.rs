@@ -22,11 +22,11 @@ mod view;
 
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
-use super::command::Command;
 use super::features::{ROWS, report, stepping};
 use super::parts::{WindowPart, mark};
 use crate::app::features::stepping::Stepping;
-use crate::app::kit::{CatalogItem, FrameState, Panel, Tab};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Panel, Tab};
 use meshbrush_ui::theme::{metrics, tokens};
 
 /// The sections of the docks that belong to no feature.

@@ -5,10 +5,10 @@ use std::time::Duration;
 use eframe::egui::{Align, Layout, Ui};
 
 use crate::app::features::inspection::decided_by;
-use crate::app::kit::FrameState;
-use crate::app::readout::{Quantity, value_at};
 use meshbrush_core::document::Stage;
 use meshbrush_core::field::RefinementRule;
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::readout::{Quantity, value_at};
 use meshbrush_ui::widgets::{StatusCell, format};
 
 /// Space between cells.

@@ -5,9 +5,9 @@ use eframe::egui::{
 };
 
 use super::view;
-use crate::app::command::Command;
-use crate::app::kit::{FrameState, StripItem};
 use crate::app::parts::{WindowPart, mark};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, StripItem};
 use meshbrush_ui::theme::{font, metrics, tokens};
 use meshbrush_ui::widgets::{Icon, ToolButton};
 

@@ -4,9 +4,9 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{Response, ThemePreference, Ui};
 
-use crate::app::command::{Command, SpaceCommand, ViewCommand};
-use crate::app::kit::FrameState;
-use crate::app::view::{CanvasAid, FieldOverlay};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, SpaceCommand, ViewCommand};
+use meshbrush_kit::kit::view::{CanvasAid, FieldOverlay};
 use meshbrush_render::colormap::Colormap;
 use meshbrush_render::scene::{Light, ViewDirection};
 use meshbrush_ui::widgets::{NumberRow, choice_rows, segmented, toggle_row};

@@ -6,9 +6,9 @@ use eframe::egui::{Rect, Vec2, vec2};
 use glam::dvec2;
 
 use super::{OffscreenWindow, boundary, look_at, make_folder, point_at, write_picture};
-use crate::app::command::{Command, ViewCommand};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::view::FieldOverlay;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_render::render::Image;
 use meshbrush_ui::theme::metrics::PANEL_WIDTH;
 

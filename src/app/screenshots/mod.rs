@@ -11,9 +11,6 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{
-    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
-};
 use super::features::boundary::BoundaryCommand;
 use super::features::boundary::BoundaryToolMode;
 use super::features::domain::DomainCommand;
@@ -25,8 +22,6 @@ use super::features::plots::{PlotKind, PlotsCommand};
 use super::features::regions::{RegionCommand, RegionShape, RegionTarget};
 use super::features::report::FigureCommand;
 use super::features::stepping::StepCommand;
-use super::tools::PaintKind;
-use super::view::FieldOverlay;
 use crate::app::features::inspection::QUERY;
 pub use manual::write as write_manual;
 use meshbrush_core::document::{DrawnShape, Example, Setting};
@@ -34,6 +29,11 @@ use meshbrush_core::domain::CutShape;
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind, Threats};
 use meshbrush_io::io;
+use meshbrush_kit::kit::command::{
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
+};
+use meshbrush_kit::kit::tools::PaintKind;
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_render::render::Image;
 use meshbrush_study::report::ReportFigure;
 use offscreen::OffscreenWindow;

@@ -15,9 +15,9 @@ use glam::DVec2;
 
 use crate::app::App;
 use crate::app::canvas::space_sight;
-use crate::app::command::Command;
-use crate::app::kit::marks::point_from_px;
 use meshbrush_core::layers::Layer;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::marks::point_from_px;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::render::Image;
 use meshbrush_render::render::gpu::{device_descriptor, read_back};

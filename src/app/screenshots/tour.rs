@@ -6,15 +6,15 @@ use eframe::egui::{Event, Modifiers, PointerButton, Vec2, vec2};
 use glam::{DVec2, dvec2};
 
 use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_picture};
-use crate::app::command::{BrushCommand, Command, FileCommand, ShellCommand, ViewCommand};
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::features::inspection::{InspectCommand, QUERY};
 use crate::app::features::painting::ERASER;
 use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
 use crate::app::host::asset;
-use crate::app::tools::BrushMode;
 use meshbrush_io::io;
+use meshbrush_kit::kit::command::{BrushCommand, Command, FileCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::tools::BrushMode;
 
 /// Size of the window, in points.
 const WINDOW: Vec2 = vec2(980.0, 640.0);

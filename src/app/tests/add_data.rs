@@ -14,15 +14,15 @@ use super::{
     Window, active, click_button, document, entries, key, notice, open_menu, open_tab, paint, send, set,
     settings, value_of, wait_for_notice, wait_until, window,
 };
-use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::picture::PictureCommand;
-use crate::app::kit::Tab;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{
     DistanceLayer, DistanceTo, LayerKind, RasterLayer, RasterReading, Surface, Threats,
 };
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

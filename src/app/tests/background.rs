@@ -14,9 +14,9 @@ use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, paint, send, step_until, wait_for_jobs, wait_until, window};
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::DomainCommand;
 use meshbrush_io::io::project;
+use meshbrush_kit::kit::command::{Command, FileCommand};
 
 const QUESTION: &str = "Save changes to “Radar threats”?";
 

@@ -11,13 +11,13 @@ use super::{
     FREE, TALL, Window, canvas, click, entries, fingerprint, hover, key, notice, open_section, press,
     price_tag, release, send, set, settings, stroke, triangles, type_into, window, window_of,
 };
-use crate::app::command::{BrushCommand, Command, EditCommand, ShellCommand};
 use crate::app::features::domain::DOMAIN;
 use crate::app::features::inspection::QUERY;
 use crate::app::features::painting::{BRUSH, ERASER};
-use crate::app::tools::PAN;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
+use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, ShellCommand};
+use meshbrush_kit::kit::tools::PAN;
 use meshbrush_mesh::mesh::MemoryLimit;
 
 /// Returns the number on the tag for a dab at a place, and what a click there then does to the number of

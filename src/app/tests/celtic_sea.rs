@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::{send, settings, triangles, window};
-use crate::app::command::{Command, FileCommand};
 use crate::app::files;
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Example, Settings};
 use meshbrush_core::domain::{BoundaryKind, BoundaryPieces};
 use meshbrush_core::layers::NodeDepths;
 use meshbrush_io::io::{Meter, recipe};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 
 #[test]
 fn the_recipe_of_the_celtic_sea_is_the_example() {

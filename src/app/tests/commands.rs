@@ -11,11 +11,11 @@ use super::{
     TALL, canvas, entries, fingerprint, key, move_to, open_popup, open_section, open_tab, paint, send,
     value_of, wait_until, window, window_of,
 };
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
-use crate::app::kit::{Tab, all_tools};
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Example;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
+use meshbrush_kit::kit::{Tab, all_tools};
 use meshbrush_mesh::mesh::Location;
 
 #[test]

@@ -7,12 +7,12 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 
 use super::{Window, key, send, show, wait_until, window};
-use crate::app::command::{BrushCommand, Command, EditCommand, LayerCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use meshbrush_core::document::{Document, DrawnShape, Follower, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_core::outline::DerivedMesh;
+use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, LayerCommand};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Cleaning, NodeId, TriangleId};
 

@@ -12,14 +12,15 @@ use super::{
     window, window_of,
 };
 use crate::app::catalog::{PLACES, catalog};
-use crate::app::command::{Command, ShellCommand};
-use crate::app::dock::Dock;
 use crate::app::features::ROWS;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::features::stepping::StepCommand;
-use crate::app::kit::{Menu, Tab, all_tools};
+use crate::app::kept::load_tab;
 use crate::app::panels;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_kit::kit::dock::Dock;
+use meshbrush_kit::kit::{Menu, Tab, all_tools};
 
 /// The most entries of a menu.
 const LONGEST_MENU: usize = 20;
@@ -240,8 +241,8 @@ fn the_tab_is_remembered_from_run_to_run() {
     let mut kept = Kept::default();
     first.state_mut().save(&mut kept);
     let mut dock = Dock::default();
-    dock.load(&kept);
+    load_tab(&mut dock, &kept);
     assert_eq!(dock.tab(), Tab::Domain);
-    dock.load(&Kept::default());
+    load_tab(&mut dock, &Kept::default());
     assert_eq!(dock.tab(), Tab::Domain, "nothing was kept");
 }

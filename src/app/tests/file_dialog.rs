@@ -12,9 +12,9 @@ use super::{
     Window, button_event, choose, document, key, notice, paint, send, value_of, wait_for_notice, wait_until,
     window, window_with,
 };
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use meshbrush_core::document::Example;
 use meshbrush_io::io::project;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::ExportFormat;
 use meshbrush_ui::widgets::format;

@@ -8,9 +8,9 @@ use glam::dvec2;
 use super::{
     Window, fingerprint, has_raster, key, notice, scratch, send, stroke, wait_for_notice, wait_until, window,
 };
-use crate::app::command::{Command, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::Example;
 use meshbrush_core::layers::RasterReading;
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, ShellCommand};
 
 #[test]
 fn an_export_writes_the_file_and_tells() {

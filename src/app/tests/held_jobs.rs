@@ -7,14 +7,15 @@ use eframe::egui::{Key, Modifiers};
 use fastrand::Rng;
 
 use super::{TALL, Window, document, folder, open_section, window, window_of};
-use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::plots::{Plots, PlotsCommand};
 use crate::app::features::statistics::Statistics;
 use crate::app::features::threats::ThreatsCommand;
-use crate::app::jobs::JobKind;
-use crate::app::view::CanvasAid;
+
 use meshbrush_io::io::project;
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, ViewCommand};
+use meshbrush_kit::kit::jobs::JobKind;
+use meshbrush_kit::kit::view::CanvasAid;
 
 const SQUARE: &str =
     r#"{"type": "Polygon", "coordinates": [[[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.2]]]}"#;

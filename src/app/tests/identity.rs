@@ -9,12 +9,12 @@ use std::process;
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, notice, paint, send, wait_until, window};
-use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::paths::{KeepOutCommand, PathCommand};
 use crate::app::features::picture::PictureCommand;
 use crate::app::features::threats::ThreatsCommand;
 use meshbrush_io::io::project;
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 
 const SQUARE: &str =
     r#"{"type": "Polygon", "coordinates": [[[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.2]]]}"#;

@@ -9,7 +9,7 @@ use super::key_table::{in_every_state, states};
 use super::{CTRL_SHIFT, FREE, Window, entries, fingerprint, key, stroke, window};
 use crate::app::features::painting::BRUSH;
 use crate::app::keys::{KeyPress, Receiver, entry_of};
-use crate::app::kit::{CatalogItem, same_keys, shortcut_text};
+use meshbrush_kit::kit::{CatalogItem, same_keys, shortcut_text};
 
 /// Shift, Ctrl and Alt, held or not.
 fn modifiers() -> [Modifiers; 8] {

@@ -12,7 +12,6 @@ use glam::dvec2;
 
 use super::{FREE, Kept, Window, choose, folder, key, notice, send, wait_until, window};
 use crate::app::catalog::catalog;
-use crate::app::command::{Command, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::features::ROWS;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::features::inspection::InspectCommand;
@@ -21,8 +20,11 @@ use crate::app::features::paths::PathCommand;
 use crate::app::features::pins::PinsCommand;
 use crate::app::features::stepping::StepCommand;
 use crate::app::features::threats::{THREATS, ThreatsCommand};
-use crate::app::kit::{CatalogItem, all_tools, conflicts, same_keys, shortcut_text};
 use meshbrush_core::layers::{LayerId, LayerKind, Threats};
+use meshbrush_kit::kit::command::{
+    Command, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
+};
+use meshbrush_kit::kit::{CatalogItem, all_tools, conflicts, same_keys, shortcut_text};
 
 pub fn entries(window: &Window) -> Vec<CatalogItem> {
     catalog(&window.state().state(None))
@@ -93,7 +95,7 @@ pub fn in_every_state(look: &mut dyn FnMut(&mut Window, &str)) {
         ("presentation with a panel", Command::from(ViewCommand::TogglePanels)),
         ("in space", Command::from(ViewCommand::Space(SpaceCommand::Toggle))),
         ("a new document", Command::from(FileCommand::New)),
-        ("the help", Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys))),
+        ("the help", Command::from(ShellCommand::ShowHelp(meshbrush_kit::kit::command::HelpTopic::Keys))),
     ] {
         send(&mut window, command);
         look(&mut window, name);
@@ -225,7 +227,7 @@ fn press(window: &mut Window, button: &str) {
 
 /// Opens the list of keys, and in it the keys of an entry.
 fn open_keys_of(window: &mut Window, row: &str) {
-    send(window, Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys)));
+    send(window, Command::from(ShellCommand::ShowHelp(meshbrush_kit::kit::command::HelpTopic::Keys)));
     let search = window.get_by_role_and_label(Role::TextInput, "Search for a key");
     search.focus();
     window.run();
@@ -289,7 +291,7 @@ fn tips_show_the_key_that_works() {
 #[test]
 fn remarks_show_the_key_that_works() {
     let mut window = window();
-    super::open_tab(&mut window, crate::app::kit::Tab::Inspect);
+    super::open_tab(&mut window, meshbrush_kit::kit::Tab::Inspect);
     let says = |window: &Window, text| window.query_by_label_contains(text).is_some();
     assert!(says(&window, "with the query tool (Q):"));
     open_keys_of(&mut window, "Query Q");
@@ -350,10 +352,10 @@ fn an_entry_of_two_owners_is_reported_in_the_list() {
     let mut window = window();
     let text =
         r#"{"format": "meshbrush keys", "version": 1, "keys": {"eraser": ["B"], "unknown-entry": ["A"]}}"#;
-    let keymap = crate::app::kit::Keymap::parse(text).unwrap();
+    let keymap = meshbrush_kit::kit::Keymap::parse(text).unwrap();
     assert!(keymap.to_text().contains("unknown-entry"), "of another version, and kept");
     send(&mut window, Command::from(ShellCommand::SetKeys(keymap)));
-    send(&mut window, Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys)));
+    send(&mut window, Command::from(ShellCommand::ShowHelp(meshbrush_kit::kit::command::HelpTopic::Keys)));
     assert!(window.query_by_label("B belongs to “Brush” and to “Eraser”.").is_some());
 }
 

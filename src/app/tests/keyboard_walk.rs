@@ -9,11 +9,11 @@ use egui_kittest::kittest::{AccessKitNode, By, NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{TALL, Window, click, open_tab, send, wait_for_jobs, window_of};
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::report::FigureCommand;
 use crate::app::features::stepping::StepCommand;
-use crate::app::kit::{Tab, ToolSpec};
 use meshbrush_core::document::Example;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{Tab, ToolSpec};
 use meshbrush_study::report::ReportFigure;
 
 /// More than the controls of any state.

@@ -12,7 +12,7 @@ use super::{
 use crate::app::features::ROWS;
 use crate::app::features::inspection::QUERY;
 use crate::app::features::painting::{BRUSH, ERASER};
-use crate::app::kit::all_tools;
+use meshbrush_kit::kit::all_tools;
 
 #[test]
 fn a_tool_is_selected_by_its_key_and_by_its_button() {

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use eframe::egui::{self, vec2};
 
 use super::{Window, canvas, fingerprint, notice, paint, send, wait_until, wheel, window, window_of};
-use crate::app::command::{Command, FileCommand, ShellCommand, ViewCommand};
 use crate::app::features::stepping::StepCommand;
-use crate::app::tools::PAN;
 use meshbrush_core::document::Example;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::tools::PAN;
 
 /// Copies a link, and returns it.
 pub fn copied(window: &mut Window) -> String {

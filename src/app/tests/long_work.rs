@@ -12,9 +12,9 @@ use super::{
     FREE, PAINTED_RISK, Window, button_event, fingerprint, key, level_at, notice, on_screen, painted,
     release_at, send, set, stroke, triangles, value_of, window, window_with,
 };
-use crate::app::busy::MOMENT;
-use crate::app::command::{Command, EditCommand};
 use meshbrush_core::document::{Document, Example, Follower, Setting, Stage};
+use meshbrush_kit::kit::busy::MOMENT;
+use meshbrush_kit::kit::command::{Command, EditCommand};
 
 /// A smallest diameter that makes the first example's mesh have about two million triangles.
 const TWO_MILLIONS: f64 = 0.00025;

@@ -12,8 +12,8 @@ use super::{
     wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use meshbrush_core::document::Setting;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand};
 
 /// Lets the window show frames for some seconds of its own time.
 fn wait_seconds(window: &mut Window, seconds: f32) {

@@ -66,15 +66,15 @@ use glam::{DVec2, dvec2};
 
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
-use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
 use crate::app::features::paths::{PathFinder, Paths};
 use crate::app::features::stepping::{Stepping, Steps};
-use crate::app::kit::Features;
-use crate::app::session::Session;
-use crate::app::tools::Tools;
-use crate::app::view::View;
 use meshbrush_core::document::{Document, Setting, Settings};
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterLayer, RasterReading};
+use meshbrush_kit::kit::Features;
+use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::tools::Tools;
+use meshbrush_kit::kit::view::View;
 use meshbrush_mesh::mesh::{Fingerprint, TriangleId};
 
 pub type Window = Harness<'static, App>;

@@ -9,18 +9,18 @@ use super::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, key, move_to, painted, send, set, settings,
     stroke, triangles, window,
 };
-use crate::app::command::{
-    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
-};
 use crate::app::features::domain::DomainTool;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::features::painting::BRUSH;
 use crate::app::features::regions::RegionCommand;
 use crate::app::features::regions::RegionTool;
-use crate::app::tools::{BrushMode, PaintKind};
-use crate::app::view::{FieldOverlay, View};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::{LayerId, LayerKind, Quantity};
+use meshbrush_kit::kit::command::{
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
+};
+use meshbrush_kit::kit::tools::{BrushMode, PaintKind};
+use meshbrush_kit::kit::view::{FieldOverlay, View};
 use meshbrush_mesh::geometry::Rect;
 
 fn brush(window: &mut Window, command: BrushCommand) {

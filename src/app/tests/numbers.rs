@@ -9,11 +9,11 @@ use super::{
     TALL, Window, button_event, entries, find, fingerprint, key, notice, open_section, press_at, release_at,
     send, set, settings, type_into, value_of, wheel, wheel_with, window_with,
 };
-use crate::app::command::{Command, ViewCommand};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{FormulaLayer, Layer, LayerKind};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, typed};
 

@@ -14,9 +14,9 @@ use super::{
     wait_for_notice, wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::DomainCommand;
 use meshbrush_core::document::Settings;
+use meshbrush_kit::kit::command::{Command, FileCommand};
 use meshbrush_mesh::text::LengthUnit;
 
 const COAST: &str =

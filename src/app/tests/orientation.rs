@@ -12,13 +12,13 @@ use super::{
     TALL, Window, choose, choose_in_palette, key, open_tab, send, set, settings, triangles, type_into,
     wait_for_jobs, wheel, window, window_of,
 };
-use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
-use crate::app::kit::Tab;
-use crate::app::view::CanvasAid;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{BrushCommand, Command, FileCommand, ViewCommand};
+use meshbrush_kit::kit::view::CanvasAid;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

@@ -7,9 +7,9 @@ use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, notice, paint, send, wait_until, window};
-use crate::app::command::{Command, FileCommand};
 use meshbrush_core::document::{Example, Settings};
 use meshbrush_io::io::project::{self, Project};
+use meshbrush_kit::kit::command::{Command, FileCommand};
 
 fn folder(name: &str) -> PathBuf {
     super::folder("app-other-window", name)

@@ -6,8 +6,8 @@ use glam::{DVec2, dvec2};
 
 use super::pictures::{Picture, drawn_window, picture, pixel};
 use super::{FREE, RESTING_PLACE, Window, canvas, in_world, on_screen, send, stroke, wait_for_jobs};
-use crate::app::command::{Command, ViewCommand};
-use crate::app::view::FieldOverlay;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 
 /// The middle of a place with painted risk in the first example.
 const PAINTED: DVec2 = dvec2(0.72, 0.74);
@@ -71,7 +71,7 @@ fn the_legends_of_fields_have_the_colours_of_the_canvas() {
 
         let image = show(&mut window, theme, FieldOverlay::Target);
         let rows = legend(&window, "Legend: diameters");
-        let deepest = crate::app::view::deepest_level(window.state().session().document().settings());
+        let deepest = meshbrush_kit::kit::view::deepest_level(window.state().session().document().settings());
         let height = rows.height() / (f32::from(deepest) + 1.0);
         let session = window.state().session();
         let target = session.decision_at(PAINTED).target;

@@ -12,11 +12,11 @@ use super::{
     FREE, TALL, Window, canvas, key, move_to, on_screen, open_tab, painted_radii, painted_shapes,
     painted_texts, send, window, window_of,
 };
-use crate::app::command::{Command, FileCommand, ViewCommand};
 use crate::app::features::paths::PathCommand;
-use crate::app::kit::Tab;
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Background, Picture, Setting};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, FileCommand, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 use meshbrush_ui::theme;
 use meshbrush_ui::theme::{metrics, tokens_of};
@@ -202,7 +202,7 @@ fn a_number_is_in_the_middle_of_its_ground() {
     let mut harness = Harness::builder().with_size(vec2(100.0, 60.0)).build_ui(|ui| {
         theme::install(ui.ctx());
         let [ground, ink] = [Color32::from_gray(3), Color32::from_gray(250)];
-        crate::app::kit::marks::paint_number(
+        meshbrush_kit::kit::marks::paint_number(
             ui.painter(),
             pos2(50.0, 30.0),
             1234,

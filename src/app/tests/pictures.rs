@@ -11,10 +11,10 @@ use super::{
     wait_for_jobs,
 };
 use crate::app::App;
-use crate::app::command::{Command, LayerCommand, ViewCommand};
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{self, Setting};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
+use meshbrush_kit::kit::command::{Command, LayerCommand, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 
 /// Returns a window whose canvas is drawn, on the software driver. Slower: only for what is judged by its
 /// picture.

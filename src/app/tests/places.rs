@@ -5,7 +5,7 @@ use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::Window;
-use crate::app::kit::Tab;
+use meshbrush_kit::kit::Tab;
 
 /// Opens a section of the docks, and before that its tab.
 pub fn open_section(window: &mut Window, title: &str) {

@@ -8,8 +8,8 @@ use egui_kittest::kittest::Queryable as _;
 use super::pictures::{drawn_window, picture};
 use super::{Kept, Window, canvas, key, window, window_of};
 use crate::app::features::ROWS;
-use crate::app::kit::all_tools;
-use crate::app::presentation::end_last;
+use crate::app::kept::end_last_presentation;
+use meshbrush_kit::kit::all_tools;
 
 /// Returns the button of a tool; a section of the side panel can have the same name.
 fn tool_button(window: &Window, name: &str) -> Option<Rect> {
@@ -68,14 +68,14 @@ fn a_presentation_ends_with_the_program() {
     let frame = |next: &Context| next.run_ui(RawInput::default(), |_| {}).textures_delta.clear();
     next.set_zoom_factor(1.5);
     frame(&next);
-    end_last(&stored, &next);
+    end_last_presentation(&stored, &next);
     frame(&next);
     assert_eq!(next.zoom_factor(), 1.0);
     key(&mut window, Modifiers::NONE, Key::F5);
     window.state_mut().save(&mut stored);
     next.set_zoom_factor(1.2);
     frame(&next);
-    end_last(&stored, &next);
+    end_last_presentation(&stored, &next);
     frame(&next);
     assert_eq!(next.zoom_factor(), 1.2, "a zoom factor of the user stays");
 }

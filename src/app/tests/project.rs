@@ -11,11 +11,13 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{Kept, Window, document, paint, send, show, wait_until, window};
-use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting, Settings, Stage};
 use meshbrush_io::io::journal::{self, Journal, Left};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::{Meter, recipe, recording};
+use meshbrush_kit::kit::command::{
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand,
+};
 use meshbrush_mesh::mesh::Fingerprint;
 
 /// The title of the first example once it is edited.

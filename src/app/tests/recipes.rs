@@ -11,9 +11,9 @@ use glam::dvec2;
 
 use super::project::Dropped;
 use super::{Window, document, fingerprint, notice, send, stroke, wait_for_notice, wait_until, window};
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_io::io::{Meter, recipe};
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
 
 /// Returns a recipe in a folder of its own, whose layer reads a file beside it.
 fn recipe_in(name: &str, text: &str) -> PathBuf {

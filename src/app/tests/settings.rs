@@ -9,11 +9,11 @@ use super::{
     TALL, Window, choose, entries, fingerprint, key, notice, open_section, press_at, release_at, send, set,
     settings, triangles, type_into, value_of, window, window_of,
 };
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::{Domain, DomainShape};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{FormulaLayer, Layer, LayerKind};
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
 
 #[test]
 fn the_diamond_opens_by_menu_and_undo_stops_at_its_start() {

@@ -8,9 +8,9 @@ use super::{
     FREE, TALL, Window, click_button, entries, fingerprint, key, notice, open_tab, send, set, settings,
     stroke, triangles, type_into, value_of, window, window_of,
 };
-use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::kit::Tab;
 use meshbrush_core::document::{Example, Setting, Settings};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 use meshbrush_ui::widgets::format;
 
 const KEEP: &str = "Keep the mesh";

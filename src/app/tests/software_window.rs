@@ -6,9 +6,9 @@ use glam::dvec2;
 use super::pictures::{Picture, picture, window_drawn_by};
 use super::{FREE, Window, click, key, move_to, send, stroke};
 use crate::app::App;
-use crate::app::command::{Command, ViewCommand};
 use crate::app::software_window::SoftwareWindow;
-use crate::app::view::FieldOverlay;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 
 /// A channel may differ by this much: the driver dithers, and rounds in other places.
 const TOLERANCE: u8 = 10;

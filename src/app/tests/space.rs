@@ -11,14 +11,16 @@ use super::{
     type_into, wait_for_jobs, wheel, window,
 };
 use crate::app::canvas::space_sight;
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::features::inspection::QUERY;
-use crate::app::heights::SpaceSight;
-use crate::app::kit::marks::point_from_px;
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use meshbrush_kit::kit::command::{
+    Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand,
+};
+use meshbrush_kit::kit::heights::SpaceSight;
+use meshbrush_kit::kit::marks::point_from_px;
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_render::scene::ViewDirection;
 
 /// Shows the hills of a formula in space.

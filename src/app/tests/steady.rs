@@ -8,8 +8,8 @@ use egui_kittest::kittest::Queryable as _;
 use super::{
     RESTING_PLACE, TALL, Window, canvas, press_at, release_at, select_base, send, type_into, window_with,
 };
-use crate::app::command::{Command, EditCommand};
-use crate::app::notices::Offer;
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::notices::Offer;
 
 fn quick_window() -> Window {
     window_with(Harness::builder().with_size(TALL).with_step_dt(0.02))
@@ -60,7 +60,7 @@ fn the_place_of_a_vanished_button_takes_no_click_for_half_a_second() {
     let button = window.get_by_role_and_label(Role::Button, "Try again").rect().center();
     window.hover_at(button);
     window.run();
-    send(&mut window, Command::from(crate::app::command::ShellCommand::DismissNotice));
+    send(&mut window, Command::from(meshbrush_kit::kit::command::ShellCommand::DismissNotice));
     assert!(window.query_by_label("Try again").is_none());
     assert!(!click_paints(&mut window, button), "the click was meant for the button");
     assert!(click_paints(&mut window, button + vec2(0.0, 80.0)), "elsewhere the canvas takes clicks");

@@ -1,7 +1,7 @@
 //! How many threads the window computes on.
 
 use super::*;
-use crate::app::background::{Aim, Outcome};
+use meshbrush_kit::kit::background::{Aim, Outcome};
 
 /// Returns the threads of work on a file that starts now.
 fn threads_of_a_file(window: &mut Window) -> String {

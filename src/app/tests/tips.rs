@@ -11,12 +11,10 @@ use super::{
     FREE, TALL, Window, canvas, choose, entries, key, open_popup, open_section, open_tab, send, wait_until,
     window_of,
 };
-use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
 use crate::app::features::ROWS;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::stepping::StepCommand;
 use crate::app::features::threats::ThreatsCommand;
-use crate::app::kit::{Tab, all_tools};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::PieceChoice;
 use meshbrush_core::field::Formula;
@@ -25,6 +23,8 @@ use meshbrush_core::layers::{
     ShapeList, Shapes, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand, ShellCommand};
+use meshbrush_kit::kit::{Tab, all_tools};
 use meshbrush_mesh::geometry::Rect;
 
 /// Height of the menu bar, in points.

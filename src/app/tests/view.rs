@@ -11,8 +11,8 @@ use super::{
     RESTING_PLACE, TALL, Window, canvas, choose, document, entries, in_world, key, on_screen, open_popup,
     open_tab, press_at, release_at, send, settings, wheel, window, window_of,
 };
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::Tab;
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_render::colormap::Ground;
 
 #[test]
@@ -192,7 +192,7 @@ fn the_bars_have_room_for_what_they_show_at_any_width() {
 
 #[test]
 fn a_fitted_view_is_fitted_to_another_size_at_once() {
-    use crate::app::view::View;
+    use meshbrush_kit::kit::view::View;
     let window = window();
     let lattice = window.state().session().mesh().lattice();
     let mut view = View::default();

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::{Window, document, folder, send, window};
-use crate::app::command::{Command, FileCommand};
 use meshbrush_core::document::Example;
+use meshbrush_kit::kit::command::{Command, FileCommand};
 
 /// Opens an example and writes files of it. Returns their contents.
 fn written(window: &mut Window, example: Example, folder: &Path) -> Vec<Vec<u8>> {

@@ -7,7 +7,7 @@ use js_sys::{Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
-use crate::app::jobs::{Job, Jobs};
+use meshbrush_kit::kit::jobs::{Job, Jobs};
 
 #[wasm_bindgen(module = "/web/assets.js")]
 extern "C" {

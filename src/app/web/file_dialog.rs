@@ -11,8 +11,8 @@ use web_sys::HtmlInputElement;
 
 use super::files::{keep, main_file};
 use crate::app::dialogs::{SystemAnswer, SystemQuestion};
-use crate::app::jobs::{Job, Jobs, Output};
-use crate::app::kit::FileRequest;
+use meshbrush_kit::kit::FileRequest;
+use meshbrush_kit::kit::jobs::{Job, Jobs, Output};
 
 /// Returns whether the browser asks for a file: it has no dialog for those that are written.
 pub fn has_dialog(request: FileRequest) -> bool {

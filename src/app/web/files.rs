@@ -8,12 +8,12 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, Url};
 
-use crate::app::background::{Aim, Background, Outcome};
-use crate::app::command::{Command, FileCommand};
 use crate::app::file_kinds::{OPEN_PROJECT, OPEN_RECIPE, opened_by_ending};
-use crate::app::jobs::Jobs;
-use crate::app::kit::FileRequest;
 use meshbrush_io::io::{Meter, disk};
+use meshbrush_kit::kit::FileRequest;
+use meshbrush_kit::kit::background::{Aim, Background, Outcome};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::jobs::Jobs;
 
 /// Keeps a file in memory, and returns its name there.
 pub fn keep(name: &str, bytes: Vec<u8>) -> PathBuf {

@@ -14,7 +14,6 @@ use web_sys::HtmlCanvasElement;
 
 use super::events::{Herald, Listeners};
 use super::{files, link};
-use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
 use crate::app::features::report::FigureCommand;
 use crate::app::features::stepping::StepCommand;
 use crate::app::{App, set_up_gpu};
@@ -22,6 +21,7 @@ use meshbrush_core::document::Example;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::{disk, png};
+use meshbrush_kit::kit::command::{BrushCommand, Command, FileCommand, ViewCommand};
 use meshbrush_render::render::software;
 use meshbrush_render::scene::Camera;
 use meshbrush_study::report::ReportFigure;

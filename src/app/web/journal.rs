@@ -12,14 +12,14 @@ use js_sys::{Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::spawn_local;
 
-use crate::app::clock::{Duration, Instant};
-use crate::app::command::Command;
-use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
-use crate::app::kit::EditRecorder;
-use crate::app::project::ProjectFile;
-use crate::app::recovery::{self, now};
-use crate::app::session::Session;
 use meshbrush_io::io::project::{self, Project, ProjectPacking};
+use meshbrush_kit::kit::EditRecorder;
+use meshbrush_kit::kit::clock::{Duration, Instant};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Output, Taken};
+use meshbrush_kit::kit::project::ProjectFile;
+use meshbrush_kit::kit::recovery::{self, now};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_ui::widgets::Answer;
 

@@ -1,7 +1,7 @@
 //! The window in a tab of a browser: what a page can do with it, and what a desktop does otherwise.
 //!
 //! The page in `web/` loads the module, makes a [`Meshbrush`] and gives it a canvas. Everything else is the
-//! same [`App`] as on a desktop. A tab has no threads: frames do the work of jobs (`app/jobs`). Its files are
+//! same [`App`] as on a desktop. A tab has no threads: frames do the work of jobs (`kit/jobs`). Its files are
 //! in memory (`io::disk`).
 
 mod assets;

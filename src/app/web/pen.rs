@@ -2,7 +2,7 @@
 
 use wasm_bindgen::prelude::*;
 
-use crate::app::command::{BrushCommand, Command};
+use meshbrush_kit::kit::command::{BrushCommand, Command};
 
 #[wasm_bindgen(module = "/web/pen.js")]
 extern "C" {

@@ -67,7 +67,7 @@ pub struct SourceFile {
 }
 
 /// The folders of source, those of the packages that others depend on first.
-pub const SOURCES: [&str; 8] = [
+pub const SOURCES: [&str; 9] = [
     "crates/mesh/src",
     "crates/core/src",
     "crates/study/src",
@@ -75,6 +75,7 @@ pub const SOURCES: [&str; 8] = [
     "crates/render/src",
     "crates/cli/src",
     "crates/ui/src",
+    "crates/kit/src",
     "src",
 ];
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::app::jobs::{Job, JobKind, Jobs, Taken};
 use meshbrush_io::io::{self, FolderListing, MOST_ENTRIES};
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Taken};
 
 /// The contents of a folder, as far as they are known.
 pub enum Contents {

@@ -8,12 +8,12 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
-use crate::app::busy::Busy;
 use crate::app::file_kinds::EXPORT_MESH;
-use crate::app::jobs::Jobs;
-use crate::app::kit::FileRequest;
 use listing::{Contents, Listing};
 use meshbrush_io::io::{self, FolderEntry};
+use meshbrush_kit::kit::FileRequest;
+use meshbrush_kit::kit::busy::Busy;
+use meshbrush_kit::kit::jobs::Jobs;
 use meshbrush_render::render::export::ExportFormat;
 pub use view::{FileAnswer, FileFacts};
 

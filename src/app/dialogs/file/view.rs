@@ -9,11 +9,12 @@ use eframe::egui::{
 };
 
 use super::{Contents, FileDialog};
-use crate::app::background::{ProgressRow, WorkId};
+
 use crate::app::file_kinds::EXPORT_MESH;
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
 use meshbrush_io::io::ThirdCoordinate;
+use meshbrush_kit::kit::background::{ProgressRow, WorkId};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::{ExportFormat, Look};
 use meshbrush_ui::theme::{font, metrics, tokens};

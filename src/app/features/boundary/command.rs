@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::{BoundaryToolMode, OpenedBoundary};
-use crate::app::command::CommandSet;
 use meshbrush_io::io::settings::SavedOpen;
+use meshbrush_kit::kit::command::CommandSet;
 
 /// The commands of the boundary tool.
 #[derive(Clone, Debug, PartialEq)]

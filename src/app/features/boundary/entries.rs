@@ -3,10 +3,10 @@
 use eframe::egui::Key;
 
 use super::{BOUNDARY, BoundaryCommand, BoundaryToolMode, OPEN_IN_POLYGONS};
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::boundary::BoundaryTool;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
 use meshbrush_io::io::settings::SavedOpen;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 use meshbrush_mesh::text::Number;
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -5,9 +5,9 @@ use glam::DVec2;
 use super::opening::{open_boundary, set_opened};
 use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode, PIECES, entries};
 use crate::app::features::boundary::BoundaryTool;
-use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_core::domain::BoundaryPieces;
 use meshbrush_core::layers::Layer;
+use meshbrush_kit::kit::{Ctx, Feature, Row, Tab};
 
 impl Feature for Boundary {
     type Command = BoundaryCommand;

@@ -1,10 +1,10 @@
 //! The kinds of files that say where the boundary is open.
 
 use super::BoundaryCommand;
-use crate::app::command::Command;
-use crate::app::kit::FileKind;
 use meshbrush_io::io::settings::SavedOpen;
 use meshbrush_io::io::shape_format;
+use meshbrush_kit::kit::FileKind;
+use meshbrush_kit::kit::command::Command;
 
 /// Polygons in which the boundary is open.
 pub static OPEN_IN_POLYGONS: FileKind = FileKind {

@@ -4,16 +4,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{BOUNDARY, BoundaryCommand};
-use crate::app::background::{Aim, Background, Outcome};
-use crate::app::command::Command;
-use crate::app::kit::Ctx;
-use crate::app::session::Session;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, Domain};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::recipe::Loading;
 use meshbrush_io::io::settings::{SavedDomain, SavedOpen, SavedOpenings, SavedSettings};
+use meshbrush_kit::kit::Ctx;
+use meshbrush_kit::kit::background::{Aim, Background, Outcome};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::text::Grouped;
 
 /// Most names of pieces in a sentence.

@@ -4,11 +4,11 @@
 use eframe::egui::Ui;
 
 use super::{BoundaryCommand, BoundaryToolMode};
-use crate::app::command::Command;
 use crate::app::features::boundary::BoundaryTool;
-use crate::app::kit::{FrameState, StripItem, name_field, set_once};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, StripItem, name_field, set_once};
 use meshbrush_ui::widgets::{ActionButton, segmented};
 
 /// What a click does, and what can be done with the selected piece.

@@ -3,13 +3,13 @@
 use eframe::egui::{Key, ScrollArea, Ui};
 
 use super::{BoundaryCommand, OPEN_IN_POLYGONS};
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::boundary::BoundaryTool;
-use crate::app::kit::{FrameState, Panel, Tab, remark, set_once};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{BoundaryPieces, BoundaryType};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::settings::SavedOpen;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, remark, set_once};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::{
     ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,

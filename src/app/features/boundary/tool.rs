@@ -4,10 +4,10 @@ use eframe::egui::{Align2, Color32, CursorIcon, Key, Painter, Pos2, Rect, vec2};
 use glam::DVec2;
 
 use super::{BOUNDARY_OPTIONS, BoundaryCommand};
-use crate::app::command::Command;
-use crate::app::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
-use crate::app::tools::{ToolSettings, first_settings};
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::tools::{ToolSettings, first_settings};
+use meshbrush_kit::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
 use meshbrush_ui::theme::font;
 use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::DomainToolMode;
-use crate::app::command::CommandSet;
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{CutShape, DepthContour, Domain};
 use meshbrush_core::layers::LayerId;
+use meshbrush_kit::kit::command::CommandSet;
 use meshbrush_mesh::geometry::Rect;
 
 /// One thing to do with the domain.

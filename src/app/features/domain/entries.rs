@@ -3,9 +3,9 @@
 use eframe::egui::Key;
 
 use super::{DOMAIN, DomainCommand, DomainToolMode};
-use crate::app::command::Command;
 use crate::app::features::domain::DomainTool;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tools = state.tools;

@@ -8,8 +8,8 @@ use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
 };
 use crate::app::features::domain::DomainTool;
-use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::CutShape;
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 impl Feature for DomainEditor {
     type Command = DomainCommand;

@@ -1,9 +1,9 @@
 //! The kinds of files that domains are read from.
 
-use crate::app::command::Command;
 use crate::app::features::domain::DomainCommand;
-use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_io::io::shape_format;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// Polygons as the domain of a new document. Longitudes and latitudes are asked about.
 pub static OPEN_DOMAIN: FileKind = FileKind {

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 use glam::DVec2;
 
-use crate::app::command::{Command, ViewCommand};
-use crate::app::derivation::Derived;
-use crate::app::kit::{FrameState, Panel, Tab};
 use meshbrush_core::domain::{FitQuality, Region};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::derivation::Derived;
+use meshbrush_kit::kit::{FrameState, Panel, Tab};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
 

@@ -3,9 +3,9 @@
 use eframe::egui::Ui;
 
 use super::{DomainCommand, DomainToolMode};
-use crate::app::command::Command;
 use crate::app::features::domain::DomainTool;
-use crate::app::kit::{FrameState, StripItem, radius_row};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, StripItem, radius_row};
 use meshbrush_ui::widgets::segmented;
 
 /// What cuts the domain, whether it adds, and the size of the brush.

@@ -3,10 +3,10 @@
 use eframe::egui::{Id, Ui};
 
 use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
-use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
+use meshbrush_kit::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts};
 use meshbrush_mesh::text::LengthUnit;

@@ -4,14 +4,14 @@ use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
 use super::{DOMAIN_OPTIONS, DomainCommand};
-use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{
+use meshbrush_core::document::DrawnPart;
+use meshbrush_core::domain::{CutShape, corners};
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::tools::{ToolSettings, Tools, first_settings};
+use meshbrush_kit::kit::{
     CLICK_SLACK, DrawingCommands, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks,
     press_brush, press_corner,
 };
-use crate::app::tools::{ToolSettings, Tools, first_settings};
-use meshbrush_core::document::DrawnPart;
-use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;

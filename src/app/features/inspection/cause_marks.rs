@@ -5,8 +5,8 @@ use eframe::egui::{Color32, Painter, Pos2, Shape, Stroke, vec2};
 use glam::DVec2;
 
 use crate::app::features::inspection::Inspector;
-use crate::app::kit::{FrameState, OverMesh, marks};
 use meshbrush_core::explain::{Demand, NodeFacts};
+use meshbrush_kit::kit::{FrameState, OverMesh, marks};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle};
 use meshbrush_ui::theme::tokens;

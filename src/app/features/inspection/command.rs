@@ -3,8 +3,8 @@
 use glam::DVec2;
 
 use super::TreeStep;
-use crate::app::command::CommandSet;
-use crate::app::readout::Quantity;
+use meshbrush_kit::kit::command::CommandSet;
+use meshbrush_kit::kit::readout::Quantity;
 use meshbrush_mesh::mesh::TriangleId;
 
 /// One thing to do with the queried point.

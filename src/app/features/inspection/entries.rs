@@ -3,9 +3,9 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{ExploreCommand, InspectCommand, TreeStep};
-use crate::app::command::Command;
 use crate::app::features::inspection::Inspector;
-use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu, QUERYING};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{CatalogItem, DIGITS, FrameState, Menu, QUERYING};
 
 /// To neighbours, and through the bisection tree. The menu has what the selected tool does.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -5,8 +5,8 @@ use glam::DVec2;
 use super::text::{Inspection, NEIGHBOURS};
 use super::{DETAILS, ExploreCommand, INSPECTOR, InspectCommand, Inspector, QUERY, TreeStep, WALK, WHY};
 use super::{cause_marks, entries, walk_marks};
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::{Ctx, Feature, Row};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 use meshbrush_mesh::mesh::TriangleId;
 
 /// A triangle that was asked for is shown at least so large, in pixels.

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use crate::app::session::Session;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::explain::{Explanation, NodeFacts};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Cause, Mesh, NodeId, TreeTriangle};
 

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use super::text::{Inspection, InspectorRow, LayerAnswer, NEIGHBOURS};
-use crate::app::command::{Command, ShellCommand, ViewCommand};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::kit::{FrameState, Panel, Tab};
-use crate::app::readout::{Quantity, Readout, TriangleReadout};
+use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::readout::{Quantity, Readout, TriangleReadout};
+use meshbrush_kit::kit::{FrameState, Panel, Tab};
 use meshbrush_mesh::mesh::{Location, TriangleId};
 use meshbrush_ui::theme::tokens;
 use meshbrush_ui::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};

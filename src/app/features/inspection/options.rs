@@ -4,10 +4,10 @@
 use eframe::egui::Ui;
 
 use super::TreeStep;
-use crate::app::command::Command;
 use crate::app::features::inspection::{ExploreCommand, InspectCommand, Inspector};
 use crate::app::features::pins::PinsCommand;
-use crate::app::kit::{FrameState, StripItem};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, StripItem};
 use meshbrush_ui::widgets::ActionButton;
 
 /// Pins and copies the queried point, and steps in the bisection tree.

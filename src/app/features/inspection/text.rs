@@ -1,9 +1,9 @@
 //! The inspector's values for a queried triangle, as text, for the panel and for copying.
 
-use crate::app::readout::{Quantity, Readout, TriangleReadout};
-use crate::app::session::Session;
-use crate::app::view::View;
 use meshbrush_core::layers::{Decision, DiameterLimit, Layer, LayerId};
+use meshbrush_kit::kit::readout::{Quantity, Readout, TriangleReadout};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::View;
 use meshbrush_mesh::mesh::{Location, NodeId, Orientation};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::format;

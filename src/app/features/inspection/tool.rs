@@ -3,10 +3,10 @@
 use eframe::egui::Key;
 
 use super::QUERY_OPTIONS;
-use crate::app::command::Command;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::pins::PinsCommand;
-use crate::app::kit::{SettingsDrag, Tab, ToolSpec};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{SettingsDrag, Tab, ToolSpec};
 use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
 

@@ -3,8 +3,8 @@
 use eframe::egui::{Color32, Pos2, Rect, Stroke, vec2};
 use glam::DVec2;
 
-use crate::app::kit::marks::{paint_line, paint_number};
-use crate::app::kit::{FrameState, OverMesh};
+use meshbrush_kit::kit::marks::{paint_line, paint_number};
+use meshbrush_kit::kit::{FrameState, OverMesh};
 use meshbrush_ui::theme::NUMBER_DISC;
 use meshbrush_ui::theme::font;
 

@@ -2,10 +2,10 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, ViewCommand};
 use crate::app::features::inspection::{InspectCommand, Inspector};
-use crate::app::kit::{FrameState, Panel, Tab, remark};
-use crate::app::view::CanvasAid;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::view::CanvasAid;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, remark};
 use meshbrush_ui::widgets::{Section, format, toggle_row, value_row};
 
 /// The walk to the queried point, and how long walks are in this mesh.

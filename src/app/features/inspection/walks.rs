@@ -1,7 +1,7 @@
 //! How many steps point location takes in the mesh, which is measured on another thread.
 
-use crate::app::jobs::{Jobs, Slot};
-use crate::app::session::Session;
+use meshbrush_kit::kit::jobs::{Jobs, Slot};
+use meshbrush_kit::kit::session::Session;
 
 /// Points that are located: the mean is then known to a few percent.
 const SAMPLES: usize = 1000;

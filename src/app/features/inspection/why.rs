@@ -4,11 +4,11 @@ use eframe::egui::{RichText, Ui};
 use glam::DVec2;
 
 use super::TreeStep;
-use crate::app::command::{Command, ViewCommand};
 use crate::app::features::inspection::{ExploreCommand, InspectCommand, Inspector};
-use crate::app::kit::{FrameState, Panel, Tab, remark};
-use crate::app::view::CanvasAid;
 use meshbrush_core::explain::{Explanation, NodeFacts, Words};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::view::CanvasAid;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, remark};
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle, bisection_edge_length};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{

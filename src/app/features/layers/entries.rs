@@ -3,9 +3,9 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::selected::combine_name;
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING};
 
 /// Returns the stack of layers, and the selected one.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

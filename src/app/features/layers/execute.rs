@@ -4,12 +4,12 @@ use super::kinds::kind_of;
 use super::{
     GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load, marks,
 };
-use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::kit::{Ctx, Feature, Row};
-use crate::app::layer_edits::unused_name;
-use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayer};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
+use meshbrush_kit::kit::layer_edits::unused_name;
+use meshbrush_kit::kit::tools::PaintKind;
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 impl Feature for LayerEditor {
     type Command = LayerCommand;

@@ -1,8 +1,8 @@
 //! The kinds of files that layers are read from.
 
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
 use meshbrush_io::io::{RasterFormat, shape_format};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
+use meshbrush_kit::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
 
 fn raster_endings() -> Vec<&'static str> {
     RasterFormat::all().flat_map(RasterFormat::endings).copied().collect()

@@ -2,9 +2,9 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use meshbrush_core::document::{Setting, Settings};
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use meshbrush_ui::widgets::{Section, SliderRow, toggle_row};
 
 /// Whether h̄ may change abruptly, or how fast it may change.

@@ -4,14 +4,14 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::app::background::name_of;
-use crate::app::kit::EmptyDocument;
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, OutlineOnEarth};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice, Reprojection};
 use meshbrush_core::raster::{RasterPyramid, projected_raster};
 use meshbrush_io::io::FileCoordinates;
 use meshbrush_io::io::geojson::Outline;
+use meshbrush_kit::kit::EmptyDocument;
+use meshbrush_kit::kit::background::name_of;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

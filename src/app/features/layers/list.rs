@@ -5,10 +5,10 @@ use eframe::egui::{Context, CursorIcon, Id, Rect, Response, ScrollArea, Ui, pos2
 use super::kinds::kind_of;
 use super::pictures::layer_color32;
 use super::selected::combine_name;
-use crate::app::command::{Command, LayerCommand};
 use crate::app::features::layers::LayerEditor;
-use crate::app::kit::FrameState;
 use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, LayerCommand};
 use meshbrush_ui::theme::tokens;
 use meshbrush_ui::widgets::{LayerRow, LayerRowAnswer};
 

@@ -4,10 +4,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::ground::ground_under;
-use crate::app::background::{Aim, Background, Outcome, name_of};
-use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
-use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
-use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
@@ -18,6 +14,10 @@ use meshbrush_io::io::layers::{
     LoadedRaster, RasterError, RasterFile, RasterFrame, RasterLoader, in_direction,
 };
 use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter};
+use meshbrush_kit::kit::background::{Aim, Background, Outcome, name_of};
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand, ShellCommand};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

@@ -3,8 +3,8 @@
 use eframe::egui::{Color32, Pos2, Stroke};
 use glam::DVec2;
 
-use crate::app::kit::{FrameState, OverMesh, marks};
 use meshbrush_core::layers::{DistanceLayer, LayerKind, ShapeList};
+use meshbrush_kit::kit::{FrameState, OverMesh, marks};
 use meshbrush_ui::theme::tokens;
 
 /// Width of the outline of a mask and of shapes, in points.

@@ -3,8 +3,8 @@
 use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{list, selected};
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, menu_item};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Panel, Tab, menu_item};
 use meshbrush_ui::theme::metrics;
 use meshbrush_ui::widgets::{Icon, Section, ToolButton};
 

@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
-use crate::app::document_id::DocumentId;
-use crate::app::jobs::{Jobs, Slot};
-use crate::app::session::Session;
-use crate::app::view::View;
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::BoundaryMarks;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec,
 };
+use meshbrush_kit::kit::document_id::DocumentId;
+use meshbrush_kit::kit::jobs::{Jobs, Slot};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::View;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_render::colormap::{LevelColors, category_color};
 

@@ -4,10 +4,10 @@ use eframe::egui::Ui;
 
 use super::OPEN_MASK;
 use super::kinds::kind_of;
-use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
-use crate::app::kit::{FrameState, area_text, remark};
 use meshbrush_core::layers::{Combine, Layer, Surface};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
+use meshbrush_kit::kit::{FrameState, area_text, remark};
 use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, segmented};
 
 /// The name of the group of choices.

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::app::derivation::MeasuredMesh;
-use crate::app::jobs::{Jobs, Slot, Wanted};
-use crate::app::session::Session;
 use meshbrush_core::surface::SurfaceFit;
+use meshbrush_kit::kit::derivation::MeasuredMesh;
+use meshbrush_kit::kit::jobs::{Jobs, Slot, Wanted};
+use meshbrush_kit::kit::session::Session;
 
 /// Measures how far meshes are from surfaces, and keeps the figures of the last one.
 #[derive(Default)]

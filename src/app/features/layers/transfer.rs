@@ -4,11 +4,11 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
-use crate::app::readout::{Quantity, value_at};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::readout::{Quantity, value_at};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use meshbrush_ui::widgets::{CurveField, CurveValues, Section, SliderRow, TransferCurve};
 
 /// The smallest diameter, and the curve from risk to diameter.

@@ -4,11 +4,11 @@ use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
 use super::BRUSH_OPTIONS;
-use crate::app::command::{BrushCommand, Command};
-use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
-use crate::app::tools::{BrushMode, PaintKind, Tools};
 use meshbrush_core::document::NoPaintLayer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_kit::kit::command::{BrushCommand, Command};
+use meshbrush_kit::kit::tools::{BrushMode, PaintKind, Tools};
+use meshbrush_kit::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
 

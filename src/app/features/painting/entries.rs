@@ -3,9 +3,9 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{ERASER, GESTURES};
-use crate::app::command::{BrushCommand, Command};
-use crate::app::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING};
-use crate::app::tools::{BrushMode, PaintKind, Tools};
+use meshbrush_kit::kit::command::{BrushCommand, Command};
+use meshbrush_kit::kit::tools::{BrushMode, PaintKind, Tools};
+use meshbrush_kit::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING};
 
 /// The brush, gestures that are hard to find, and what the digits set.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

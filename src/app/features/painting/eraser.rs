@@ -4,9 +4,9 @@ use eframe::egui::Key;
 
 use super::ERASER_OPTIONS;
 use super::brush::{hint_without_layer, line_to_here, press_to_paint};
-use crate::app::kit::{Tab, ToolSpec};
-use crate::app::tools::Tools;
 use meshbrush_core::paint::{Brush, Medium};
+use meshbrush_kit::kit::tools::Tools;
+use meshbrush_kit::kit::{Tab, ToolSpec};
 use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
 

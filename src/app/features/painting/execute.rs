@@ -3,13 +3,13 @@
 use glam::DVec2;
 
 use super::{BRUSH, ERASER, GESTURES, LimitOffer, Painting, brush_diameters, entries};
-use crate::app::command::{BrushCommand, Command, LayerCommand};
-use crate::app::kit::{Ctx, Feature, Row};
-use crate::app::notices::Offer;
-use crate::app::readout::{Quantity, value_at};
-use crate::app::tools::{BrushMode, PaintKind};
 use meshbrush_core::document::{NoPaintLayer, Setting};
 use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_kit::kit::command::{BrushCommand, Command, LayerCommand};
+use meshbrush_kit::kit::notices::Offer;
+use meshbrush_kit::kit::readout::{Quantity, value_at};
+use meshbrush_kit::kit::tools::{BrushMode, PaintKind};
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 impl Feature for Painting {
     type Command = BrushCommand;

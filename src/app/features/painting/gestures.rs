@@ -1,6 +1,6 @@
 //! Gestures of painting.
 
-use crate::app::kit::{GestureHelp, GesturePlace};
+use meshbrush_kit::kit::{GestureHelp, GesturePlace};
 
 /// What can be done with the pointer while the brush or the eraser is selected.
 pub static GESTURES: [GestureHelp; 4] = [

@@ -1,18 +1,18 @@
 //! The offer to lower the smallest diameter, after a smaller one was painted.
 
-use crate::app::clock::{Duration, Instant};
 use crate::app::features::painting::Painting;
+use meshbrush_kit::kit::clock::{Duration, Instant};
 
 use eframe::egui::{self, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, vec2};
 use glam::DVec2;
 
-use crate::app::command::{BrushCommand, Command};
-use crate::app::kit::{FrameState, NO_LIMIT, marks::point_from_px};
-use crate::app::session::Session;
-use crate::app::slices::SLICE;
 use meshbrush_core::document::{Price, TransferPrice, TransferPricer};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
+use meshbrush_kit::kit::command::{BrushCommand, Command};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::slices::SLICE;
+use meshbrush_kit::kit::{FrameState, NO_LIMIT, marks::point_from_px};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::scene::Camera;

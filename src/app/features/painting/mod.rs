@@ -19,7 +19,8 @@ use options::{BRUSH_OPTIONS, ERASER_OPTIONS, brush_diameters};
 
 use meshbrush_core::layers::LayerId;
 
-/// The stroke is in the document, and the settings of the brush are in [`Tools`](crate::app::tools::Tools).
+/// The stroke is in the document, and the settings of the brush are in
+/// [`Tools`](meshbrush_kit::kit::tools::Tools).
 #[derive(Default)]
 pub struct Painting {
     /// The offer that follows the current stroke.

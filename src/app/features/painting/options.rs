@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use super::ERASER;
-use crate::app::command::{BrushCommand, Command};
-use crate::app::kit::{FrameState, StripItem, radius_row};
-use crate::app::tools::{BrushMode, FIRST_HARDNESS, PaintKind, PenEffect};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
+use meshbrush_kit::kit::command::{BrushCommand, Command};
+use meshbrush_kit::kit::tools::{BrushMode, FIRST_HARDNESS, PaintKind, PenEffect};
+use meshbrush_kit::kit::{FrameState, StripItem, radius_row};
 use meshbrush_ui::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
 
 /// What the brush paints and how, its size, and how strokes are drawn.

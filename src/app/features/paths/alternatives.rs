@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::finder::PathsKey;
 use super::prover::FoundPaths;
-use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
 use meshbrush_core::path::{Alternatives, Difference, Solution};
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Output, Taken};
 use meshbrush_mesh::geometry::nearest_on_segment;
 use meshbrush_mesh::mesh::Progress;
 

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use glam::DVec2;
 
 use super::{AlternativesCommand, FrontCommand, KeepOutCommand};
-use crate::app::command::CommandSet;
 use meshbrush_core::document::PathCost;
 use meshbrush_core::layers::LayerId;
+use meshbrush_kit::kit::command::CommandSet;
 
 /// Why nothing can be done with a path of a document without one.
 pub const NO_PATH: &str = "There is no path: set its start and goal with the path tool[ ({path})].";
@@ -29,7 +29,7 @@ pub enum PathCommand {
         is_between: bool,
     },
     /// Moves the place that was taken hold of. Further moves join this gesture until
-    /// [`EditCommand::EndGesture`](crate::app::command::EditCommand::EndGesture).
+    /// [`EditCommand::EndGesture`](meshbrush_kit::kit::command::EditCommand::EndGesture).
     DragTo(DVec2),
     /// Begins a path.
     StartAt(DVec2),

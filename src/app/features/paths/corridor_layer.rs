@@ -1,10 +1,10 @@
 //! Corridors: layers along the paths as they were when they were taken.
 
 use super::{NO_PATH, Paths};
-use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::Ctx;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
+use meshbrush_kit::kit::Ctx;
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand};
 use meshbrush_ui::widgets::shown_keys::with_keys;
 
 impl Paths {

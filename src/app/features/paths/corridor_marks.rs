@@ -3,8 +3,8 @@
 use eframe::egui::{Color32, Mesh, Pos2, Rect, Shape, pos2};
 
 use crate::app::features::paths::Paths;
-use crate::app::kit::marks::paint_line;
-use crate::app::kit::{FrameState, OverMesh};
+use meshbrush_kit::kit::marks::paint_line;
+use meshbrush_kit::kit::{FrameState, OverMesh};
 
 /// The colours of the corridor and of its outline.
 pub const FILL: Color32 = Color32::from_rgba_premultiplied(0x44, 0x3b, 0x10, 0x44);

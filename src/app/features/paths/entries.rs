@@ -3,9 +3,9 @@
 use eframe::egui::Key;
 
 use super::{AlternativesCommand, CostKind, FrontCommand, KeepOutCommand, OPEN_KEEP_OUT, PATH, PathCommand};
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::paths::Paths;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// Returns the entries. The key deletes a place of a path only while the tool is selected.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

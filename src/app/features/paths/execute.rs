@@ -12,12 +12,12 @@ use super::{
     AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH, PATH_COST,
     PATH_PANEL, PathCommand, Paths, ROLES, entries, export, marks,
 };
-use crate::app::command::Command;
-use crate::app::kit::{Ctx, Feature, Row, nearest_within};
-use crate::app::notices::Offer;
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Setting};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::path::Weights;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::notices::Offer;
+use meshbrush_kit::kit::{Ctx, Feature, Row, nearest_within};
 use meshbrush_render::render::path_export::PathFormat;
 use meshbrush_ui::widgets::format;
 use meshbrush_ui::widgets::shown_keys::with_keys;

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use super::{NO_PATH, PathFinder, PathTool};
-use crate::app::background::{Aim, Background, Outcome, not_exported};
-use crate::app::derivation::Derived;
-use crate::app::session::Session;
-use crate::app::view::View;
 use meshbrush_core::earth::{EarthPlane, Speed};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::Solution;
 use meshbrush_io::io::{self, MeshSource, Provenance};
+use meshbrush_kit::kit::background::{Aim, Background, Outcome, not_exported};
+use meshbrush_kit::kit::derivation::Derived;
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::View;
 use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
 use meshbrush_ui::widgets::format;
 

@@ -1,9 +1,9 @@
 //! Paths and the regions that they stay out of, as files.
 
 use super::{KeepOutCommand, PathCommand};
-use crate::app::command::Command;
-use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_io::io::shape_format;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_render::render::path_export::PathFormat;
 
 /// Polygons as a region that paths stay out of.

@@ -21,12 +21,12 @@ use super::work::{
     FinishedWork, FoundPath, KnownPlanner, PathWork, PlannedMesh, PlannerSource, ShownPath, WorkResult,
     find_corridor,
 };
-use crate::app::derivation::MeasuredMesh;
-use crate::app::document_id::DocumentId;
-use crate::app::jobs::{Jobs, Slice, Slot};
-use crate::app::session::Session;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::PathError;
+use meshbrush_kit::kit::derivation::MeasuredMesh;
+use meshbrush_kit::kit::document_id::DocumentId;
+use meshbrush_kit::kit::jobs::{Jobs, Slice, Slot};
+use meshbrush_kit::kit::session::Session;
 
 /// A mesh of one of the documents that were opened.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::finder::{MeshKey, PathsKey};
-use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
-use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
 use meshbrush_core::domain::{Domain, DomainShape};
 use meshbrush_core::layers::{Layer, PaintLayers, RiskField};
 use meshbrush_core::path::{Front, FrontPoint, PathMesh, Weights};
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Output, Taken};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::Progress;
 
 /// Paths of a front, at most.

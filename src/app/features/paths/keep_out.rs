@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::PathCommand;
-use crate::app::background::{Background, name_of};
-use crate::app::command::Command;
-use crate::app::kit::with_mask;
-use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
+use meshbrush_kit::kit::background::{Background, name_of};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::with_mask;
 
 /// One thing to do with keep-out regions.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use eframe::egui::{Color32, Pos2, Shape, Stroke};
 
-use crate::app::kit::{FrameState, OverMesh, hatching, marks};
 use meshbrush_core::layers::Mask;
+use meshbrush_kit::kit::{FrameState, OverMesh, hatching, marks};
 
 /// The colour of hatching and outline.
 const COLOR: Color32 = Color32::from_rgb(0xff, 0x6b, 0x5a);

@@ -3,9 +3,11 @@
 use eframe::egui::Ui;
 
 use super::PathCommand;
-use crate::app::command::Command;
-use crate::app::kit::{Addition, FrameState, LayerKindRow, button_rows, range_rows, remark, set_kind_once};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{
+    Addition, FrameState, LayerKindRow, button_rows, range_rows, remark, set_kind_once,
+};
 use meshbrush_ui::widgets::{Icon, NumberRow};
 
 /// A strip along the paths as they were when they were taken.

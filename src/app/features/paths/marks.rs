@@ -7,9 +7,9 @@ use super::tool::{PathPlace, paint_place};
 use super::work::FoundPath;
 use super::{corridor_marks, keep_out_marks};
 use crate::app::features::paths::Paths;
-use crate::app::kit::marks::{paint_line, paint_line_preview, paint_rimmed_line};
-use crate::app::kit::{FrameState, OverMesh};
 use meshbrush_core::path::Solution;
+use meshbrush_kit::kit::marks::{paint_line, paint_line_preview, paint_rimmed_line};
+use meshbrush_kit::kit::{FrameState, OverMesh};
 use meshbrush_ui::theme::font;
 
 /// Width of the path that is shown in the panel, in points.

@@ -6,11 +6,11 @@ use eframe::egui::Ui;
 
 use super::panel::MOST_WEIGHT;
 use super::{AlternativesCommand, PathCommand};
-use crate::app::command::Command;
 use crate::app::features::paths::Paths;
-use crate::app::kit::{FrameState, StripItem, end_gesture_when_released};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, StripItem, end_gesture_when_released};
 use meshbrush_ui::widgets::{ActionButton, SliderRow, toggle_row};
 
 /// The caution of the paths, and which other paths are shown.

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::work::FoundPath;
-use crate::app::jobs::{Job, JobKind, Jobs, Output, Taken};
+
 use meshbrush_core::domain::Domain;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
 };
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Output, Taken};
 use meshbrush_mesh::mesh::Progress;
 
 /// Certifies one path after the other.

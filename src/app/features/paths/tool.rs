@@ -5,10 +5,10 @@ use glam::DVec2;
 
 use super::colors::path_color;
 use super::{PATH_OPTIONS, PathCommand};
-use crate::app::command::Command;
 use crate::app::features::paths::Paths;
-use crate::app::kit::{FrameState, OverMesh, SettingsDrag, Tab, ToolSpec};
 use meshbrush_core::document::PathPlan;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, OverMesh, SettingsDrag, Tab, ToolSpec};
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
 

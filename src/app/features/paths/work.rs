@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::app::jobs::Slice;
 use meshbrush_core::document::PathPlan;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, metres_along};
@@ -14,6 +13,7 @@ use meshbrush_core::path::{
     CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathMeshing, PathRequest, PathSample,
     PathSearch, Planner, PlannerMove, Planning, Solution,
 };
+use meshbrush_kit::kit::jobs::Slice;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Mesh, Progress};
 use meshbrush_mesh::text::LengthUnit;

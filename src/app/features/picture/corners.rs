@@ -3,10 +3,10 @@
 use eframe::egui::{Color32, CursorIcon, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use glam::DVec2;
 
-use crate::app::command::{Command, EditCommand};
-use crate::app::kit::FrameState;
-use crate::app::kit::marks::point_from_px;
 use meshbrush_core::document::{Background, Setting};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::marks::point_from_px;
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_render::scene::Camera;
 

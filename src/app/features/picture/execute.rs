@@ -6,11 +6,11 @@ use std::sync::Arc;
 use glam::dvec2;
 
 use super::{BACKGROUND, BackgroundPicture, PictureCommand, ROLES};
-use crate::app::background::{Aim, Outcome, name_of};
-use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{Ctx, EmptyDocument, Feature, Row, show_over_extent};
 use meshbrush_core::document::{Background, Setting, Settings};
 use meshbrush_io::io;
+use meshbrush_kit::kit::background::{Aim, Outcome, name_of};
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::{Ctx, EmptyDocument, Feature, Row, show_over_extent};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

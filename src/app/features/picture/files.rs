@@ -1,8 +1,8 @@
 //! The kinds of files that the picture behind the mesh is read from.
 
-use crate::app::command::Command;
 use crate::app::features::picture::PictureCommand;
-use crate::app::kit::{DataContents, DataRole, FileKind};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{DataContents, DataRole, FileKind};
 
 /// A picture to trace.
 pub static OPEN_PICTURE: FileKind = FileKind {

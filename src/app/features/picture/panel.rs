@@ -4,10 +4,10 @@ use eframe::egui::Ui;
 use glam::dvec2;
 
 use super::OPEN_PICTURE;
-use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
-use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
-use crate::app::view::CanvasAid;
 use meshbrush_core::document::{Background, Setting};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ViewCommand};
+use meshbrush_kit::kit::view::CanvasAid;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 

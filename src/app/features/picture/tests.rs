@@ -9,7 +9,6 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::corners::NAMES;
-use crate::app::command::Command;
 use crate::app::features::picture::PictureCommand;
 use crate::app::tests::{
     TALL, Window, choose_in_palette, document, entries, fingerprint, folder, key, move_to, notice,
@@ -18,6 +17,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::{Background, Document, Setting};
 use meshbrush_io::io::{self, project};
+use meshbrush_kit::kit::command::Command;
 use meshbrush_mesh::geometry::Rect;
 
 /// Returns a picture of 4 × 2 pixels.

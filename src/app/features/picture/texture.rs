@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use eframe::egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 
-use crate::app::kit::marks::point_from_px;
 use meshbrush_core::document::{Background, Picture};
+use meshbrush_kit::kit::marks::point_from_px;
 use meshbrush_render::scene::Camera;
 
 /// The texture of the picture that was drawn last.

@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::PinsCommand;
 use super::files::EXPORT_PINS;
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::pins::Pins;
-use crate::app::kit::{CatalogItem, FrameState, Menu, QUERYING};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, QUERYING};
 
 /// Entries of the menu of the canvas, with the tool that moves pins.
 pub fn entries_at(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {

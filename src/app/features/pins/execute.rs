@@ -1,6 +1,6 @@
 //! Commands about pins.
 
-use crate::app::clock::{Duration, Instant};
+use meshbrush_kit::kit::clock::{Duration, Instant};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use super::files::ROLES;
 use super::load::load_pins;
 use super::table::{copy_table, counted, export_table, nearest_pin};
 use super::{PINS, Pins, PinsCommand, entries, entries_at, marks};
-use crate::app::command::Command;
 use crate::app::features::inspection::InspectCommand;
-use crate::app::kit::{Ctx, Feature, NO_LIMIT, Row};
 use meshbrush_core::document::Setting;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{Ctx, Feature, NO_LIMIT, Row};
 
 /// The time of a frame that goes into the table of pins.
 const TABLE_BUDGET: Duration = Duration::from_millis(3);

@@ -1,8 +1,8 @@
 //! The table of the pins as a file.
 
-use crate::app::command::Command;
 use crate::app::features::pins::PinsCommand;
-use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// The table of the pins.
 pub static EXPORT_PINS: FileKind = FileKind {

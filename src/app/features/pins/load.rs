@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use super::PinsCommand;
 use super::execute::with_points;
-use crate::app::background::{Aim, Background, Outcome};
-use crate::app::command::Command;
-use crate::app::kit::{EmptyDocument, show_over_extent, with_space_around};
-use crate::app::session::Session;
 use meshbrush_io::io;
+use meshbrush_kit::kit::background::{Aim, Background, Outcome};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::{EmptyDocument, show_over_extent, with_space_around};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

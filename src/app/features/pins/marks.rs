@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::table::nearest_pin;
 use crate::app::features::pins::Pins;
-use crate::app::kit::marks::paint_number;
-use crate::app::kit::{FrameState, GRIP_POINTS, OverMesh};
-use crate::app::readout::{Quantity, Readout, TriangleReadout};
+use meshbrush_kit::kit::marks::paint_number;
+use meshbrush_kit::kit::readout::{Quantity, Readout, TriangleReadout};
+use meshbrush_kit::kit::{FrameState, GRIP_POINTS, OverMesh};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::theme::NUMBER_DISC;
 use meshbrush_ui::theme::font;

@@ -5,9 +5,9 @@ use eframe::egui::{Align2, FontId, Pos2, Rect, Role, ScrollArea, Sense, Ui, Widg
 use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use super::table::PinRow;
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::pins::Pins;
-use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{Section, format};
 

@@ -1,18 +1,18 @@
 //! The table of the pins: their triangles and values.
 
-use crate::app::clock::Instant;
+use meshbrush_kit::kit::clock::Instant;
 use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::app::background::{Aim, Background, Outcome, exported};
-use crate::app::command::Command;
 use crate::app::features::pins::PinsCommand;
-use crate::app::kit::nearest_within;
-use crate::app::readout::{Quantity, Readout, TriangleReadout};
-use crate::app::session::Session;
 use meshbrush_io::io::{self, Meter};
+use meshbrush_kit::kit::background::{Aim, Background, Outcome, exported};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::nearest_within;
+use meshbrush_kit::kit::readout::{Quantity, Readout, TriangleReadout};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_ui::widgets::format;
 
 /// The data that the values of all pins depend on.

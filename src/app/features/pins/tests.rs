@@ -7,7 +7,6 @@ use eframe::egui::{Key, Modifiers, OutputCommand, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::features::inspection::QUERY;
 use crate::app::features::pins::{Pins, PinsCommand};
 use crate::app::tests::{
@@ -16,6 +15,7 @@ use crate::app::tests::{
 };
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::located::write_of_document;
+use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand};
 
 const AT: DVec2 = dvec2(0.3, 0.6);
 
@@ -85,7 +85,7 @@ fn the_table_follows_every_edit() {
     let mut window = window_with_pins();
     let before = row(&window, 2);
     let readout = |window: &Window, at| {
-        crate::app::readout::Readout::triangle_at(
+        meshbrush_kit::kit::readout::Readout::triangle_at(
             at,
             window.state().session(),
             window.state().view().quantity,

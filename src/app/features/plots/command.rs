@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::app::command::CommandSet;
 use meshbrush_core::surface::CurvePoint;
+use meshbrush_kit::kit::command::CommandSet;
 
 /// One thing to do with plots.
 #[derive(Clone, Debug, PartialEq)]

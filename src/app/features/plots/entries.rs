@@ -4,9 +4,9 @@ use eframe::egui::Key;
 
 use super::files::EXPORT_PLOT;
 use super::{PlotKind, PlotsCommand};
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::plots::Plots;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// Returns the plots, and what to do with them.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -1,14 +1,14 @@
 //! The curves of error against triangles, traced on another thread.
 
-use crate::app::clock::Instant;
-use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::jobs::{Jobs, Slice, Slot};
-use crate::app::kit::Ctx;
-use crate::app::session::Session;
 use meshbrush_core::build::{CurveTracing, ErrorCurves, MeshSpec, Parts};
 use meshbrush_core::document::Pace;
 use meshbrush_core::layers::{LayerKind, PaintLayers, Surface, SurfaceGoal, SurfaceNorm};
 use meshbrush_core::surface::CurvePoint;
+use meshbrush_kit::kit::Ctx;
+use meshbrush_kit::kit::clock::Instant;
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand};
+use meshbrush_kit::kit::jobs::{Jobs, Slice, Slot};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_study::error_plot::error_plot;
 use meshbrush_study::plot::Plot;

@@ -2,9 +2,9 @@
 
 use super::error_curve::take_point;
 use super::{PLOTS, PlotKind, Plots, PlotsCommand, entries};
-use crate::app::command::Command;
 use crate::app::features::stepping::StepCommand;
-use crate::app::kit::{Ctx, Feature, Row};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 impl Feature for Plots {
     type Command = PlotsCommand;

@@ -1,8 +1,8 @@
 //! The plot as a file.
 
 use super::PlotsCommand;
-use crate::app::command::Command;
-use crate::app::kit::{FileAct, FileKind};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FileAct, FileKind};
 use meshbrush_study::plot;
 
 /// The plot.

@@ -17,13 +17,13 @@ pub use entries::entries;
 use error_curve::TracedCurves;
 pub use panel::{HEIGHT, PLOTS, measuring};
 
-use crate::app::background::{Aim, Background, exported};
-use crate::app::derivation::MeasuredMesh;
-use crate::app::jobs::{Job, JobKind, Jobs, Output, Slot, Taken, Wanted};
-use crate::app::session::Session;
 use meshbrush_cli::cli::RunClock;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_io::io;
+use meshbrush_kit::kit::background::{Aim, Background, exported};
+use meshbrush_kit::kit::derivation::MeasuredMesh;
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Output, Slot, Taken, Wanted};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_study::levels::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 use meshbrush_study::plot::{self, Plot};

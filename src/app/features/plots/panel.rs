@@ -4,9 +4,9 @@ use eframe::egui::Ui;
 
 use super::files::EXPORT_PLOT;
 use super::{PlotKind, Plots, PlotsCommand};
-use crate::app::command::{Command, FileCommand};
-use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_core::surface::CurvePoint;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_study::plot::Plot;
 use meshbrush_study::report::Experiment;
 use meshbrush_ui::widgets::{

@@ -7,7 +7,6 @@ use eframe::egui::{Key, Modifiers, OutputCommand};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{PlotKind, PlotsCommand};
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::plots::Plots;
 use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, folder, key, open_section, send, settings, stroke, triangles,
@@ -15,6 +14,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Example, Setting};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand};
 use meshbrush_study::levels::Bisections;
 use meshbrush_ui::widgets::format;
 

@@ -2,14 +2,14 @@
 
 use glam::DVec2;
 
-use crate::app::command::CommandSet;
 use meshbrush_core::document::DrawnShape;
+use meshbrush_kit::kit::command::CommandSet;
 
 /// One thing to do with a region drawn by hand. Points are in world units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RegionCommand {
     /// Adds a shape to the target of the tool (`true`) or cuts it away. Further shapes join until
-    /// [`EditCommand::EndGesture`](crate::app::command::EditCommand::EndGesture).
+    /// [`EditCommand::EndGesture`](meshbrush_kit::kit::command::EditCommand::EndGesture).
     Draw(DrawnShape, bool),
     /// Sets the next corner of the polygon or the line.
     AddCorner(DVec2),

@@ -3,9 +3,9 @@
 use eframe::egui::Key;
 
 use super::{REGION, RegionCommand, RegionShape, RegionTarget};
-use crate::app::command::Command;
 use crate::app::features::regions::RegionTool;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tool = state.tools.settings::<RegionTool>();

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::gestures::GESTURES;
 use super::{REGION, RegionCommand, RegionShape, RegionTarget, Regions, entries};
-use crate::app::command::{Command, LayerCommand};
 use crate::app::features::regions::RegionTool;
-use crate::app::kit::{Ctx, Feature, Row};
-use crate::app::session::Session;
 use meshbrush_core::document::{Drawing, DrawnPart, DrawnShape, KeepOut, PathPlan, Setting, Settings};
 use meshbrush_core::domain::CutShape;
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 impl Feature for Regions {
     type Command = RegionCommand;

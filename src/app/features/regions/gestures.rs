@@ -1,6 +1,6 @@
 //! Gestures of drawing regions.
 
-use crate::app::kit::{GestureHelp, GesturePlace};
+use meshbrush_kit::kit::{GestureHelp, GesturePlace};
 
 /// What can be done with the pointer while the region tool is selected.
 pub static GESTURES: [GestureHelp; 5] = [

@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::RegionTarget;
 use crate::app::features::regions::RegionTool;
-use crate::app::kit::{FrameState, OverMesh, hatching, marks};
 use meshbrush_core::document::DrawnPart;
 use meshbrush_core::layers::Mask;
+use meshbrush_kit::kit::{FrameState, OverMesh, hatching, marks};
 use meshbrush_mesh::geometry::Rect;
 
 /// The hatching where a layer does not count.

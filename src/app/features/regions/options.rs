@@ -3,9 +3,9 @@
 use eframe::egui::Ui;
 
 use super::{RegionCommand, RegionShape, RegionTarget};
-use crate::app::command::Command;
 use crate::app::features::regions::RegionTool;
-use crate::app::kit::{FrameState, StripItem, name_field, radius_row};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, StripItem, name_field, radius_row};
 use meshbrush_ui::widgets::{dropdown_row, segmented};
 
 /// What is drawn on, with what, whether it adds, and the size of the brush.

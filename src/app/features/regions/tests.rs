@@ -5,11 +5,9 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::regions::RegionTool;
 use crate::app::features::regions::{REGION, RegionCommand, RegionShape, RegionTarget};
-use crate::app::kit::Tab;
 use crate::app::tests::{
     TALL, Window, active, click, click_button, entries, fingerprint, key, level_at, move_to, notice,
     open_tab, press, release, send, settings, stroke, triangles, wait_until, window_of,
@@ -17,6 +15,8 @@ use crate::app::tests::{
 use meshbrush_core::document::DrawnShape;
 use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, ShapeList};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, LayerCommand};
 use meshbrush_mesh::geometry::Rect;
 
 const SQUARE: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.5, 0.2), dvec2(0.5, 0.5), dvec2(0.2, 0.5)];

@@ -5,12 +5,12 @@ use eframe::egui::Key;
 use glam::DVec2;
 
 use super::{REGION_OPTIONS, RegionCommand, RegionShape, RegionTarget, marks};
-use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{
+use meshbrush_core::document::DrawnShape;
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::tools::{ToolSettings, Tools, first_settings};
+use meshbrush_kit::kit::{
     DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
 };
-use crate::app::tools::{ToolSettings, Tools, first_settings};
-use meshbrush_core::document::DrawnShape;
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
 

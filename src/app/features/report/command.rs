@@ -1,6 +1,6 @@
 //! Commands about the figures of the report.
 
-use crate::app::command::CommandSet;
+use meshbrush_kit::kit::command::CommandSet;
 use meshbrush_study::report::ReportFigure;
 
 /// One thing to do with the figures of the report.

@@ -2,7 +2,7 @@
 
 use crate::app::features::plots::Plots;
 use crate::app::features::stepping::{Stepping, Steps};
-use crate::app::kit::FrameState;
+use meshbrush_kit::kit::FrameState;
 use meshbrush_study::report::{Comparison, Experiment, ReportFigure};
 use meshbrush_ui::widgets::format;
 

@@ -1,8 +1,8 @@
 //! The figures of the report in menus and in the palette.
 
 use super::FigureCommand;
-use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 use meshbrush_study::report::ReportFigure;
 
 /// Returns an entry for each figure.

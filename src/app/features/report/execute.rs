@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::{FIGURE, FigureCommand, Report, entries};
-use crate::app::command::{Command, FileCommand, Opened, ShellCommand};
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::features::stepping::StepCommand;
-use crate::app::kit::{Ctx, Feature, Row, Tab};
+use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
+use meshbrush_kit::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_study::report::ReportFigure;
 
 impl Feature for Report {

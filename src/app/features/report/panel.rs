@@ -3,10 +3,10 @@
 use eframe::egui::{Align, Grid, Layout, RichText, Ui};
 
 use super::{FigureCommand, as_text, comparisons};
-use crate::app::command::Command;
 use crate::app::features::plots::{self, PlotKind, Plots};
 use crate::app::features::report::Report;
-use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_study::report::{ABOUT_EXPONENT, Comparison, ReportFigure};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{ActionButton, plot_view, tips};

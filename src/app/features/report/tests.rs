@@ -4,7 +4,6 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::app::command::Command;
 use crate::app::features::plots::Plots;
 use crate::app::features::plots::PlotsCommand;
 use crate::app::features::report::FigureCommand;
@@ -12,6 +11,7 @@ use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, fingerprint, key, paint, send, settings, tips, triangles, wait_until,
     window_of,
 };
+use meshbrush_kit::kit::command::Command;
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::StepPlayer;
 

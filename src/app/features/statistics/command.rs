@@ -1,6 +1,6 @@
 //! Commands about the figures of the mesh.
 
-use crate::app::command::CommandSet;
+use meshbrush_kit::kit::command::CommandSet;
 
 /// One thing to do with the figures of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

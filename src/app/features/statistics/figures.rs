@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::{Statistics, StatisticsCommand, levels::LEVELS, panel::STATISTICS};
-use crate::app::derivation::MeasuredMesh;
-use crate::app::jobs::{Jobs, Wanted};
-use crate::app::kit::{Ctx, Feature, Row};
-use crate::app::session::Session;
 use meshbrush_core::build::RefinementCriterion;
+use meshbrush_kit::kit::derivation::MeasuredMesh;
+use meshbrush_kit::kit::jobs::{Jobs, Wanted};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 use meshbrush_mesh::mesh::{MeshStatistics, TriangleId};
 
 /// The figures of a mesh as files get it.

@@ -2,9 +2,9 @@
 
 use eframe::egui::{Color32, Ui};
 
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::{FrameState, Panel, Tab};
-use crate::app::view::deepest_level;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::view::deepest_level;
+use meshbrush_kit::kit::{FrameState, Panel, Tab};
 use meshbrush_render::colormap::LevelColors;
 use meshbrush_ui::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 

@@ -10,8 +10,8 @@ mod tests;
 pub use command::StatisticsCommand;
 use figures::Measured;
 
-use crate::app::derivation::MeasuredMesh;
-use crate::app::jobs::Slot;
+use meshbrush_kit::kit::derivation::MeasuredMesh;
+use meshbrush_kit::kit::jobs::Slot;
 
 /// Measures meshes, and keeps the figures of the last one.
 #[derive(Default)]

@@ -4,9 +4,9 @@ use eframe::egui::Ui;
 use glam::DVec2;
 
 use super::Measured;
-use crate::app::command::{Command, ShellCommand, ViewCommand};
 use crate::app::features::statistics::{Statistics, StatisticsCommand};
-use crate::app::kit::{FrameState, Panel, Tab};
+use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::{FrameState, Panel, Tab};
 use meshbrush_mesh::mesh::MeshStatistics;
 use meshbrush_ui::theme::metrics;
 use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};

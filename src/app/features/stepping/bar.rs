@@ -4,7 +4,7 @@ use eframe::egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, 
 
 use super::steps::SPEEDS;
 use super::{StepCommand, Steps};
-use crate::app::command::Command;
+use meshbrush_kit::kit::command::Command;
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{Icon, ToolButton, format, segmented, tips};
 

@@ -4,9 +4,9 @@ use eframe::egui::{Key, Modifiers};
 
 use super::StepCommand;
 use super::files::EXPORT_STEPS;
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::stepping::Stepping;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// The situation of keys that work while steps are shown.
 const STEPPING: &str = "while steps are shown";

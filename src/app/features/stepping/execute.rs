@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::entries::entries;
 use super::{StepCommand, Stepping, Steps};
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::{Ctx, Feature, Row};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 use meshbrush_mesh::geometry::Rect;
 
 /// The distance of a corner of a triangle from its middle, in pixels, from which the numbers of its nodes

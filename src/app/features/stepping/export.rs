@@ -4,11 +4,11 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::Steps;
-use crate::app::background::listed;
-use crate::app::background::{Aim, Background, Outcome, not_exported};
-use crate::app::session::Session;
-use crate::app::view::View;
 use meshbrush_io::io;
+use meshbrush_kit::kit::background::listed;
+use meshbrush_kit::kit::background::{Aim, Background, Outcome, not_exported};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::View;
 use meshbrush_render::colormap::Ground;
 use meshbrush_study::steps::svg as steps;
 use meshbrush_ui::widgets::format;

@@ -1,8 +1,8 @@
 //! Steps of the refinement as files.
 
 use super::StepCommand;
-use crate::app::command::Command;
-use crate::app::kit::{FileAct, FileKind};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FileAct, FileKind};
 
 /// Steps of the refinement, each to a file.
 pub static EXPORT_STEPS: FileKind = FileKind {

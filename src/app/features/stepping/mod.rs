@@ -26,7 +26,7 @@ pub use panel::{WIDTH, details, text_and_code, title};
 pub use picture::paint;
 pub use steps::Steps;
 
-use crate::app::tools::Tools;
+use meshbrush_kit::kit::tools::Tools;
 
 /// What the window keeps of the mode.
 #[derive(Default)]

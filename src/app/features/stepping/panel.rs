@@ -6,9 +6,9 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 
 use super::steps::MOST_TRIANGLES;
 use super::{StepCommand, code, panel_export, rows};
-use crate::app::command::Command;
 use crate::app::features::stepping::Stepping;
-use crate::app::kit::{FrameState, remark};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, remark};
 use meshbrush_mesh::mesh::bisection_edge_length;
 use meshbrush_study::steps::{NeighbourCase, RecordedStep, StepAction, StepPlayer, StepStage};
 use meshbrush_ui::theme::{font, tokens};

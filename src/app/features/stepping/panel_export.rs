@@ -5,8 +5,8 @@ use eframe::egui::Ui;
 use super::export::MOST_FILES;
 use super::files::EXPORT_STEPS;
 use super::{StepCommand, Steps};
-use crate::app::command::{Command, FileCommand};
-use crate::app::kit::remark;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::remark;
 use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, tips};
 
 const NAME: &str = "Export steps as SVG…";

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::kit::FrameState;
+use meshbrush_kit::kit::FrameState;
 use meshbrush_study::steps::{ReportRow, RowChange, StepPlayer};
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::format;

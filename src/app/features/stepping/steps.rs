@@ -6,10 +6,10 @@ use std::time::Duration;
 use eframe::egui::Context;
 use glam::DVec2;
 
-use crate::app::document_id::DocumentId;
-use crate::app::jobs::{Jobs, Slot};
-use crate::app::session::Session;
 use meshbrush_core::build::RefinementCriterion;
+use meshbrush_kit::kit::document_id::DocumentId;
+use meshbrush_kit::kit::jobs::{Jobs, Slot};
+use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::{Mesh, Progress, barycentric};
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::{Recording, StepAction, StepPlayer, StepRecorder};

@@ -8,7 +8,6 @@ use glam::{DVec2, dvec2};
 use super::StepCommand;
 use super::export::MOST_FILES;
 use super::steps::MOST_TRIANGLES;
-use crate::app::command::{Command, FileCommand, ViewCommand};
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::painting::BRUSH;
 use crate::app::features::report::FigureCommand;
@@ -17,9 +16,10 @@ use crate::app::tests::{
     CTRL_SHIFT, FREE, Window, canvas, click, entries, fingerprint, key, notice, on_screen, painted_shapes,
     painted_texts, send, set, settings, triangles, wait_until, window, window_of,
 };
-use crate::app::tools::PAN;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::outline::DerivationAction;
+use meshbrush_kit::kit::command::{Command, FileCommand, ViewCommand};
+use meshbrush_kit::kit::tools::PAN;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{NodeId, fingerprint_of};
 use meshbrush_study::report::ReportFigure;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::command::CommandSet;
+use meshbrush_kit::kit::command::CommandSet;
 
 use glam::DVec2;
 

@@ -3,9 +3,9 @@
 use eframe::egui::Key;
 
 use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand, threats_layer};
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::threats::ThreatEditor;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
 /// The key deletes a threat only while the tool is selected.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

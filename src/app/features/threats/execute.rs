@@ -5,10 +5,10 @@ use glam::DVec2;
 use super::table::{load_threats, save_threats};
 use super::tool::grip_at;
 use super::{ROLES, THREATS, THREATS_KIND, ThreatEditor, ThreatGrip, ThreatsCommand, entries, threats_layer};
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{Ctx, Feature, Row};
-use crate::app::notices::Offer;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
+use meshbrush_kit::kit::notices::Offer;
+use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 /// Range of the first threat, as a share of the longer side of the domain.
 const DEFAULT_RANGE: f64 = 0.15;

@@ -1,8 +1,8 @@
 //! Tables of threats as files.
 
-use crate::app::command::Command;
 use crate::app::features::threats::ThreatsCommand;
-use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// A table in place of the threats of a layer.
 pub static OPEN_THREATS: FileKind = FileKind {

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use super::threats_layer;
-use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::features::threats::ThreatEditor;
-use crate::app::kit::{FrameState, StripItem, end_gesture_when_released, set_kind};
 use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand};
+use meshbrush_kit::kit::{FrameState, StripItem, end_gesture_when_released, set_kind};
 use meshbrush_ui::widgets::{SliderRow, segmented};
 
 /// The range, the peak and the law of the selected threat.

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use super::threats_layer;
-use crate::app::background::{Aim, Background, Outcome, exported};
-use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::{EmptyDocument, show_with_layer};
-use crate::app::session::Session;
 use meshbrush_core::layers::{LayerKind, Threat, Threats};
 use meshbrush_io::io;
+use meshbrush_kit::kit::background::{Aim, Background, Outcome, exported};
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::{EmptyDocument, show_with_layer};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::format;
 

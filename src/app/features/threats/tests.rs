@@ -7,7 +7,6 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, LayerCommand};
 use crate::app::features::inspection::QUERY;
 use crate::app::features::painting::BRUSH;
 use crate::app::features::threats::{THREATS, ThreatsCommand};
@@ -16,6 +15,7 @@ use crate::app::tests::{
     release, send, stroke, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
 use meshbrush_core::layers::{LayerId, Threat, ThreatLaw, Threats};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
 
 /// Returns a window with a new, empty layer of threats, added by the menu of the panel.
 fn window_with_threats() -> Window {

@@ -5,10 +5,10 @@ use glam::DVec2;
 
 use super::options::THREAT_OPTIONS;
 use super::{ThreatGrip, threats_layer};
-use crate::app::command::Command;
 use crate::app::features::threats::{ThreatEditor, ThreatsCommand};
-use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec, nearest_within};
 use meshbrush_core::layers::Threat;
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec, nearest_within};
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
 

@@ -4,11 +4,11 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Rect, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::app::kit::Tab;
 use crate::app::tests::pictures::{drawn_window_of, write_for_a_look};
 use crate::app::tests::{
     Window, canvas, choose, open_section, open_tab, section, type_into, wait_for_jobs, window,
 };
+use meshbrush_kit::kit::Tab;
 
 /// Does a job in a window.
 pub struct Hands {

@@ -12,10 +12,10 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{click, folder, key, level_at, send, settings, stroke, wait_for_jobs, wait_until};
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::Tab;
 use hands::Hands;
 use meshbrush_core::layers::RasterLayer;
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
 
 /// A grid over the unit square.
 const DEPTHS: &str = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n\

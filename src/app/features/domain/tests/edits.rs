@@ -5,9 +5,7 @@ use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
-use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, open_tab,
     press, release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until,
@@ -15,6 +13,8 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::{Example, Setting, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Location;
 

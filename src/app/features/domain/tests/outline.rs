@@ -7,7 +7,6 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::pins::PinsCommand;
 use crate::app::tests::{
@@ -15,6 +14,7 @@ use crate::app::tests::{
     wait_for_notice, wait_until, window, window_of, window_with,
 };
 use meshbrush_core::layers::RasterReading;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_mesh::geometry::Rect;
 
 /// Writes a file with a square that has a square hole.

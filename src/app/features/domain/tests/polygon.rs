@@ -4,13 +4,13 @@ use eframe::egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::DomainTool;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::tests::{
     Window, area, click, entries, key, move_to, notice, on_screen, open_menu, press, press_at, release,
     release_at, send, wait_until, window,
 };
+use meshbrush_kit::kit::command::{Command, FileCommand};
 
 const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), dvec2(0.2, 0.4)];
 

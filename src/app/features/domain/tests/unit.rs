@@ -6,15 +6,15 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::inspection::InspectCommand;
-use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, TALL, Window, entries, find, fingerprint, folder, key, move_to, open_section, open_tab, send, set,
     settings, triangles, type_into, value_of, wait_until, window_of,
 };
 use meshbrush_core::document::{Example, Setting};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, FileCommand};
 use meshbrush_mesh::text::LengthUnit;
 
 fn in_metres() -> Window {

@@ -5,15 +5,15 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::inspection::{InspectCommand, QUERY};
-use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, RESTING_PLACE, TALL, button_event, click, entries, key, on_screen, open_tab, selected, send,
     value_of, window, window_of,
 };
 use meshbrush_core::document::Example;
 use meshbrush_core::outline::DerivedMesh;
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
 use meshbrush_mesh::mesh::{Location, NodeId};
 
 #[test]

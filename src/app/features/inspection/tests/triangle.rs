@@ -5,7 +5,6 @@ use eframe::egui::{Key, Modifiers, OutputCommand, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{Command, ShellCommand};
 use crate::app::features::inspection::{InspectCommand, QUERY};
 use crate::app::features::painting::BRUSH;
 use crate::app::tests::{
@@ -13,6 +12,7 @@ use crate::app::tests::{
     send, settings, window, window_of,
 };
 use meshbrush_core::outline::DerivedMesh;
+use meshbrush_kit::kit::command::{Command, ShellCommand};
 use meshbrush_mesh::mesh::TriangleId;
 
 fn neighbour(window: &Window, id: TriangleId, place: usize) -> Option<TriangleId> {

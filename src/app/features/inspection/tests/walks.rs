@@ -5,9 +5,9 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{Command, ShellCommand};
 use crate::app::features::inspection::QUERY;
 use crate::app::tests::{TALL, Window, choose, click, key, selected, send, value_of, wait_until, window_of};
+use meshbrush_kit::kit::command::{Command, ShellCommand};
 
 #[test]
 fn the_tab_method_says_how_long_the_walk_is_and_a_toggle_hides_it() {

@@ -5,11 +5,11 @@ use eframe::egui::{Color32, Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::inspection::Inspector;
 use crate::app::features::inspection::QUERY;
 use crate::app::tests::{TALL, Window, click, key, painted_shapes, send, stroke, window_of};
 use meshbrush_core::explain::Explanation;
+use meshbrush_kit::kit::command::{Command, EditCommand};
 use meshbrush_mesh::mesh::{Cause, TriangleId};
 
 fn explanation(window: &Window) -> &Explanation {

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::OPEN_BAND;
-use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
 use meshbrush_core::layers::{BandLayer, Layer, LayerKind};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
+use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
 use meshbrush_ui::widgets::{Icon, NumberRow};
 
 /// A band of the values of a raster.

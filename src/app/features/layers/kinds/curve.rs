@@ -5,9 +5,9 @@ use std::sync::{Arc, Weak};
 
 use eframe::egui::{Id, Response, Ui};
 
-use crate::app::kit::{FrameState, remark};
 use meshbrush_core::layers::{FineAt, RasterSource, ValueCurve};
 use meshbrush_core::raster::RasterPyramid;
+use meshbrush_kit::kit::{FrameState, remark};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::{ActionButton, CurveChange, CurvePlot, KnotAnswer, KnotRow};
 

@@ -3,12 +3,12 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::layers::{OPEN_DEPTH, way_to_metres};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
 use meshbrush_core::domain::DepthContour;
 use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, Layer, LayerKind, PositiveDepth, wavelength};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::{
     ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,

@@ -2,13 +2,13 @@
 
 use eframe::egui::{ScrollArea, Ui};
 
-use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryType, PieceChoice};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
+use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
 use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 
 /// The distance to shapes or to the outline of the domain.

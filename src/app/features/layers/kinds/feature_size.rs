@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use super::water::{ChangedWater, WaterRows};
-use crate::app::command::Command;
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{FeatureSize, Layer, LayerKind, WaterMiddle};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use meshbrush_ui::widgets::Icon;
 
 /// Triangles across the water.

@@ -6,11 +6,11 @@ use std::str::FromStr;
 use eframe::egui::Ui;
 
 use super::quantity_name;
-use crate::app::command::Command;
-use crate::app::kit::{Addition, FormulaRow, FrameState, LayerKindRow, add_layer, set_kind_once};
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{FormulaLayer, Layer, LayerKind, Quantity};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{Addition, FormulaRow, FrameState, LayerKindRow, add_layer, set_kind_once};
 use meshbrush_ui::widgets::{Icon, NumberRow, segmented};
 
 /// A formula in x and y.

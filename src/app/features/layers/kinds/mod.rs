@@ -12,8 +12,8 @@ mod straits;
 mod surface;
 mod water;
 
-use crate::app::kit::{LayerKindRow, LayerKinds};
 use meshbrush_core::layers::{LayerKind, Quantity};
+use meshbrush_kit::kit::{LayerKindRow, LayerKinds};
 
 /// The kinds of layers of this feature.
 pub static KINDS: [&LayerKindRow; 9] = [

@@ -3,9 +3,9 @@
 use eframe::egui::Ui;
 
 use super::quantity_name;
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer};
 use meshbrush_core::layers::{Layer, LayerKind, PaintLayer, Quantity};
+use meshbrush_kit::kit::command::{Command, LayerCommand};
+use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer};
 use meshbrush_mesh::text::Bytes;
 use meshbrush_ui::widgets::{ActionButton, Icon, ValueRow};
 

@@ -5,15 +5,15 @@ use std::sync::Arc;
 use eframe::egui::Ui;
 
 use super::curve::{curve_plot, curve_rows, default_curves};
-use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
-use crate::app::kit::{
-    Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once, size_price_row,
-};
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterLayer, RasterReading, RasterSource, ValueCurve};
 use meshbrush_core::raster::check_values;
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
+use meshbrush_kit::kit::{
+    Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once, size_price_row,
+};
 use meshbrush_ui::widgets::{Icon, ValueRow, format, segmented};
 
 /// A picture or a grid.

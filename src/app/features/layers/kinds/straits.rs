@@ -3,11 +3,11 @@
 use eframe::egui::Ui;
 
 use super::water::{ChangedWater, WaterRows};
-use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::{Layer, LayerKind, StraitDisc, StraitDiscs, Straits};
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use meshbrush_ui::widgets::{Icon, ValueRow, format};
 
 /// Triangles across straits.

@@ -3,14 +3,14 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::layers::{LayerEditor, OPEN_SURFACE};
-use crate::app::kit::{
+use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, ViewCommand};
+use meshbrush_kit::kit::{
     Addition, FormulaRow, FrameState, LayerKindRow, add_layer, end_gesture_when_released, remark, set_kind,
     set_kind_once,
 };
-use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use meshbrush_mesh::text::round_below;
 use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
 

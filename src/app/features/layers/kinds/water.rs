@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use crate::app::kit::{FrameState, remark};
+use meshbrush_kit::kit::{FrameState, remark};
 use meshbrush_ui::widgets::NumberRow;
 
 /// The numbers of a layer, and a sentence for each.

@@ -10,7 +10,6 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::stack::{choose_in, select};
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, choose_in_palette, click_button, entries, folder, key, level_at,
     move_to, notice, open_menu, send, settings, triangles, type_into, value_of, wait_for_notice, wait_until,
@@ -22,6 +21,7 @@ use meshbrush_core::layers::{
     BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerId, LayerKind, RasterLayer, RasterReading,
     RasterSource,
 };
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, LayerCommand};
 
 /// Four pixels over the unit square; the last has no value.
 const DEPTHS: &str = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 0.5\nNODATA_value -9999\n\

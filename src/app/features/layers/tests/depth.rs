@@ -7,15 +7,15 @@ use egui_kittest::kittest::Queryable as _;
 
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, click_button, entries, folder, notice, on_screen, send, settings,
     step_until, triangles, type_into, value_of, wait_for_jobs, wait_for_notice, wait_until, window_of,
 };
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth, Straits};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

@@ -7,7 +7,6 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::depth::begin_contour;
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
     TALL, Window, active, folder, notice, send, settings, step_until, triangles, wait_for_notice, wait_until,
     window_of,
@@ -15,6 +14,7 @@ use crate::app::tests::{
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
 use meshbrush_core::layers::{DepthRule, Depths};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, LayerCommand};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 

@@ -6,7 +6,6 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::layers::LayerEditor;
 use crate::app::tests::{
@@ -14,13 +13,14 @@ use crate::app::tests::{
     level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles, type_into,
     value_of, wait_until, window, window_of, window_with,
 };
-use crate::app::tools::PaintKind;
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::{
     Combine, FormulaLayer, Layer, LayerId, LayerKind, Mask, Quantity, RasterLayer, RasterReading,
 };
+use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand};
+use meshbrush_kit::kit::tools::PaintKind;
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::text::LengthUnit;
 
 /// A place in the first example where risk is painted.

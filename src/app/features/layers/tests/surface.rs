@@ -7,20 +7,22 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::depth::click_on;
-use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into, value_of,
     wait_for_jobs, wait_until, window_of,
 };
-use crate::app::tools::PaintKind;
-use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     Layer, LayerId, LayerKind, Quantity, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
 };
+use meshbrush_kit::kit::command::{
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ViewCommand,
+};
+use meshbrush_kit::kit::tools::PaintKind;
+use meshbrush_kit::kit::view::FieldOverlay;
 
 fn goal(window: &Window) -> SurfaceGoal {
     let Some(surface) = active(window).kind.get::<Surface>() else {

@@ -5,15 +5,15 @@ use eframe::egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{BrushCommand, Command, EditCommand, LayerCommand};
 use crate::app::features::painting::BRUSH;
 use crate::app::tests::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen, open_popup,
     painted, press, price_tag, release, send, settings, stroke, triangles, value_of, window, with_base,
 };
-use crate::app::tools::{BrushMode, PaintKind, PenEffect};
 use meshbrush_core::field::RiskToDiameter as _;
 use meshbrush_core::layers::LayerKind;
+use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, LayerCommand};
+use meshbrush_kit::kit::tools::{BrushMode, PaintKind, PenEffect};
 use meshbrush_ui::widgets::format;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {

@@ -5,12 +5,12 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{BrushCommand, Command, EditCommand, ViewCommand};
 use crate::app::tests::{
     FREE, PAINTED_DIAMETER, Window, click_button, entries, hover, key, move_to, on_screen, painted, send,
     settings, stroke, triangles, type_into, value_of, window,
 };
-use crate::app::tools::PaintKind;
+use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, ViewCommand};
+use meshbrush_kit::kit::tools::PaintKind;
 use meshbrush_ui::widgets::format;
 
 const LOWER: &str = "Lower the smallest diameter";

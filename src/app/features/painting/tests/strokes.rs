@@ -6,12 +6,12 @@ use eframe::egui::{self, Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{BrushCommand, Command};
 use crate::app::tests::{
     CTRL_SHIFT, FREE, entries, fingerprint, key, level_at, move_to, on_screen, press, release, send, stroke,
     triangles, window,
 };
-use crate::app::tools::PaintKind;
+use meshbrush_kit::kit::command::{BrushCommand, Command};
+use meshbrush_kit::kit::tools::PaintKind;
 
 #[test]
 fn the_mesh_refines_under_the_brush_while_the_button_is_still_down() {

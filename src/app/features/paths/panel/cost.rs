@@ -2,11 +2,11 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{CostKind, PathCommand};
-use crate::app::kit::{FormulaRow, FrameState, end_gesture_when_released};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::{FormulaRow, FrameState, end_gesture_when_released};
 use meshbrush_ui::widgets::{NumberRow, segmented};
 
 /// The largest weight.

@@ -2,9 +2,9 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::paths::{EXPORT_PATH, PathCommand, Paths};
-use crate::app::kit::{FrameState, button_rows};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{FrameState, button_rows};
 use meshbrush_ui::widgets::NumberRow;
 
 /// The tolerance of the points, and the button.

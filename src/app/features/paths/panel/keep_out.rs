@@ -2,10 +2,10 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::paths::{KeepOutCommand, OPEN_KEEP_OUT, PathCommand};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
-use crate::app::kit::{FrameState, area_text, button_rows, end_gesture_when_released};
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{FrameState, area_text, button_rows, end_gesture_when_released};
 use meshbrush_ui::theme::metrics;
 use meshbrush_ui::widgets::{Icon, NumberRow, ToolButton, ValueRow};
 

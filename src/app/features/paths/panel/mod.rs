@@ -7,11 +7,11 @@ mod others;
 
 use eframe::egui::{RichText, Ui};
 
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{FoundPath, PathCommand, Paths, ShownPath};
-use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_core::document::PathPlan;
 use meshbrush_core::earth::{Speed, hours_and_minutes};
+use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_mesh::text::{LengthUnit, percent_above};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 use meshbrush_ui::theme::{font, tokens};

@@ -3,13 +3,13 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::Command;
 use crate::app::features::paths::{
     AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand, Paths,
 };
-use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{FrontPoint, Solution};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 use meshbrush_ui::widgets::{
     ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,

@@ -5,13 +5,13 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::tests::{
     active, choose_in_palette, click_button, entries, move_to, notice, press, release, send, settings,
     triangles,
 };
 use meshbrush_core::layers::{DistanceLayer, DistanceTo};
+use meshbrush_kit::kit::command::{Command, EditCommand};
 
 const ADD: &str = "Add layer: corridor along the paths";
 

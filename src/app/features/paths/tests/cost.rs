@@ -6,10 +6,10 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{Window, is_complete, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand};
 use crate::app::tests::{click, entries, key, send, set, settings, tips, type_into, wait_until};
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::path::{Solution, Weights};
+use meshbrush_kit::kit::command::{Command, EditCommand};
 use meshbrush_mesh::text::LengthUnit;
 
 fn solution(window: &Window) -> Solution {

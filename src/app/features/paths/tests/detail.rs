@@ -6,11 +6,11 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 
 use crate::app::features::paths::work::{KnownPlanner, PathWork, PlannedMesh, PlannerSource, WorkResult};
-use crate::app::jobs::Slice;
 use meshbrush_core::document::{KeepOut, PathPlan};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::{Mask, RiskField};
 use meshbrush_core::path::Solution;
+use meshbrush_kit::kit::jobs::Slice;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
 use meshbrush_mesh::text::LengthUnit;

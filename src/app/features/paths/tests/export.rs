@@ -10,7 +10,6 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
 use super::{GOAL, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::features::paths::Paths;
 use crate::app::tests::tips::unexplained;
@@ -20,6 +19,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::path::{Solution, Weights};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand};
 use meshbrush_mesh::text::LengthUnit;
 
 fn solution(window: &Window) -> Solution {

@@ -9,7 +9,6 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
 use super::{GOAL, START, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::features::paths::{KeepOutCommand, PathCommand};
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
@@ -20,6 +19,7 @@ use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::Weights;
+use meshbrush_kit::kit::command::{Command, EditCommand, LayerCommand};
 
 /// A wall between start and goal, open above.
 const WALL: [DVec2; 4] = [dvec2(0.45, -0.1), dvec2(0.6, -0.1), dvec2(0.6, 0.95), dvec2(0.45, 0.95)];

@@ -14,11 +14,9 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::features::paths::Paths;
 use crate::app::features::paths::work::ShownPath;
 use crate::app::features::paths::{PATH, PathCommand};
-use crate::app::kit::Tab;
 use crate::app::tests::{
     TALL, Window, click, key, move_to, open_tab, press, release, send, set, settings, stroke, wait_until,
     window_of,
@@ -26,6 +24,8 @@ use crate::app::tests::{
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{PathMesh, PathRequest, Planner};
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 
 const START: DVec2 = dvec2(0.05, 0.1);
 const GOAL: DVec2 = dvec2(0.95, 0.9);

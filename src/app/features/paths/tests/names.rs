@@ -6,9 +6,9 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{START, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::tests::{Window, click, entries, key, send, settings, type_into};
+use meshbrush_kit::kit::command::{Command, EditCommand};
 
 fn says(window: &Window, label: &str) -> bool {
     window.query_by_role_and_label(Role::Label, label).is_some()

@@ -6,7 +6,6 @@ use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 
 use super::{Window, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{
     AlternativesCommand, CORRIDOR_COLOR, FrontCommand, PathCommand, PathFinder,
 };
@@ -14,6 +13,7 @@ use crate::app::tests::{
     RESTING_PLACE, key, painted_shapes, press_at, release_at, send, settings, tips, wait_for_jobs, wait_until,
 };
 use meshbrush_core::document::PathCost;
+use meshbrush_kit::kit::command::{Command, EditCommand};
 
 fn paths(window: &Window) -> &PathFinder {
     window.state().paths()

@@ -7,7 +7,6 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{GOAL, Window, row, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{PathCommand, Paths};
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
@@ -16,6 +15,7 @@ use crate::app::tests::{
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Region};
 use meshbrush_core::path::{Solution, Weights};
+use meshbrush_kit::kit::command::{Command, EditCommand};
 use meshbrush_mesh::geometry::{Rect, nearest_on_segment};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::format;

@@ -5,13 +5,13 @@ use eframe::egui::{Modifiers, OutputCommand};
 use egui_kittest::kittest::Queryable as _;
 
 use super::super::Measured;
-use crate::app::command::{Command, FileCommand};
 use crate::app::features::statistics::Statistics;
 use crate::app::tests::{
     FREE, TALL, Window, fingerprint, notice, open_section, press, release, send, set, stroke, triangles,
     value_of, wait_for_jobs, wait_until, window_of,
 };
 use meshbrush_core::document::{Example, Setting};
+use meshbrush_kit::kit::command::{Command, FileCommand};
 use meshbrush_mesh::mesh::Mesh;
 use meshbrush_ui::widgets::format;
 

@@ -4,8 +4,8 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::app::kit::Tab;
 use crate::app::tests::{RESTING_PLACE, TALL, Window, button_event, open_tab, window_of};
+use meshbrush_kit::kit::Tab;
 
 /// A click on the row of a level in the legend.
 fn click_row(window: &mut Window, level: u32, modifiers: Modifiers) {

@@ -1,0 +1,55 @@
+//! What the window's own storage keeps of the parts of the window from run to run.
+
+use std::path::PathBuf;
+
+use eframe::egui::Context;
+use eframe::{Storage, get_value, set_value};
+
+use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::dock::Dock;
+use meshbrush_kit::kit::presentation::Presentation;
+use meshbrush_kit::kit::project::ProjectFile;
+
+/// Name under which the storage keeps the tab of the lower dock.
+const TAB_KEY: &str = "tab";
+/// Name under which it keeps the recent files.
+const RECENT_KEY: &str = "recent files";
+/// Name under which it keeps the zoom factor before the presentation, where the run ends with one.
+const ZOOM_KEY: &str = "zoom factor before the presentation";
+
+/// Shows the tab of the last run.
+pub fn load_tab(dock: &mut Dock, storage: &dyn Storage) {
+    let tab: Option<String> = get_value(storage, TAB_KEY);
+    if let Some(tab) = tab.as_deref().and_then(Tab::named) {
+        dock.choose(tab);
+    }
+}
+
+/// Keeps the tab for the next run.
+pub fn store_tab(dock: &Dock, storage: &mut dyn Storage) {
+    set_value(storage, TAB_KEY, &dock.tab().name());
+}
+
+/// Loads the list of recent files.
+pub fn load_recent(project: &mut ProjectFile, storage: &dyn Storage) {
+    project.set_recent(get_value(storage, RECENT_KEY).unwrap_or_default());
+}
+
+/// Stores it.
+pub fn store_recent(project: &ProjectFile, storage: &mut dyn Storage) {
+    // A path that is not valid Unicode cannot be stored.
+    let named: Vec<&PathBuf> = project.recent().iter().filter(|path| path.to_str().is_some()).collect();
+    set_value(storage, RECENT_KEY, &named);
+}
+
+/// Keeps what ends a presentation: egui keeps the size of text and lines from run to run.
+pub fn store_presentation(presentation: Option<Presentation>, storage: &mut dyn Storage) {
+    set_value(storage, ZOOM_KEY, &presentation.map(|presentation| presentation.zoom_factor()));
+}
+
+/// Ends the presentation with which the last run ended, if it did.
+pub fn end_last_presentation(storage: &dyn Storage, ctx: &Context) {
+    if let Some(Some(zoom_factor)) = get_value(storage, ZOOM_KEY) {
+        ctx.set_zoom_factor(zoom_factor);
+    }
+}
