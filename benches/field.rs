@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
-    Layer, LayerKind, PaintLayers, RasterLayer, RasterReading, RasterSource, SettledSquares, SizeField,
-    SizeFieldSpec,
+    Layer, PaintLayers, RasterLayer, RasterReading, RasterSource, SettledSquares, SizeField, SizeFieldSpec,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{LatticePoint, Rect};

@@ -14,8 +14,7 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterLayer, RasterReading,
-    RasterSource, Threats,
+    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterLayer, RasterReading, RasterSource,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::path::Weights;

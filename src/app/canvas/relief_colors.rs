@@ -127,7 +127,7 @@ impl ReliefColors {
 #[cfg(test)]
 mod tests {
     use meshbrush_core::document::Example;
-    use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth, RasterSource};
+    use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, PositiveDepth, RasterSource};
     use meshbrush_core::raster::{Raster, RasterPyramid};
     use meshbrush_mesh::geometry::Rect;
 

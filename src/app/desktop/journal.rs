@@ -25,11 +25,11 @@ use meshbrush_io::io::project::Project;
 use meshbrush_kit::kit::EditRecorder;
 use meshbrush_kit::kit::clock::{Duration, Instant};
 use meshbrush_kit::kit::command::Command;
-use meshbrush_kit::kit::jobs::{Job, JobKind, Output, Taken};
+use meshbrush_kit::kit::jobs::{Job, JobKind, Jobs, Output, Taken};
 use meshbrush_kit::kit::project::ProjectFile;
 use meshbrush_kit::kit::recovery::{self, now};
 use meshbrush_kit::kit::session::Session;
-use meshbrush_ui::widgets::Answer;
+use meshbrush_ui::widgets::ConfirmAnswer;
 
 /// An entry that the thread writes.
 enum JournalEntry {

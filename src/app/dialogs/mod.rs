@@ -17,7 +17,6 @@ use eframe::egui::Context;
 use super::REPORT;
 use super::catalog::{PLACES, catalog, words_of};
 use super::host;
-use super::jobs::Jobs;
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;

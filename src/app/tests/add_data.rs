@@ -18,9 +18,7 @@ use crate::app::features::picture::PictureCommand;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{
-    DistanceLayer, DistanceTo, LayerKind, RasterLayer, RasterReading, Surface, Threats,
-};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, LayerKind, RasterLayer, RasterReading, Threats};
 use meshbrush_kit::kit::Tab;
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 use meshbrush_mesh::geometry::Rect;

@@ -14,7 +14,7 @@ use crate::app::canvas::space_sight;
 use crate::app::features::inspection::QUERY;
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use meshbrush_core::layers::{Layer, LayerId, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use meshbrush_kit::kit::command::{
     Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand,
 };

@@ -21,7 +21,7 @@ use meshbrush_kit::kit::project::ProjectFile;
 use meshbrush_kit::kit::recovery::{self, now};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::Progress;
-use meshbrush_ui::widgets::Answer;
+use meshbrush_ui::widgets::ConfirmAnswer;
 
 #[wasm_bindgen(module = "/web/storage.js")]
 extern "C" {

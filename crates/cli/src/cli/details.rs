@@ -7,7 +7,7 @@ use super::earth_args::OutputCoordinates;
 use super::input::Input;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{CourantFit, DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
+use meshbrush_core::layers::{CourantFit, DepthFit, Layer, NoDepth, NodeDepths, StraitCount, Straits};
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;

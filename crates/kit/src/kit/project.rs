@@ -13,7 +13,7 @@ use meshbrush_io::io::project::{ENDING, Project};
 use meshbrush_io::io::recipe::RecipeFiles;
 use meshbrush_io::io::recording;
 use meshbrush_render::render::export::ExportFormat;
-use meshbrush_ui::widgets::Answer;
+use meshbrush_ui::widgets::ConfirmAnswer;
 
 /// Most files that are remembered.
 const MOST_RECENT: usize = 8;

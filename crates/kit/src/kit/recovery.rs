@@ -8,7 +8,7 @@ use super::clock::{SystemTime, UNIX_EPOCH};
 use super::command::{Command, FileCommand};
 use super::project::ProjectFile;
 use meshbrush_io::io::project::Project;
-use meshbrush_ui::widgets::{Answer, ConfirmDialog};
+use meshbrush_ui::widgets::{ConfirmAnswer, ConfirmDialog};
 
 /// Returns the seconds since 1970.
 pub fn now() -> u64 {

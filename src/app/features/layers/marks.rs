@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, Pos2, Stroke};
 use glam::DVec2;
 
-use meshbrush_core::layers::{DistanceLayer, LayerKind, ShapeList};
+use meshbrush_core::layers::{DistanceLayer, ShapeList};
 use meshbrush_kit::kit::{FrameState, OverMesh, marks};
 use meshbrush_ui::theme::tokens;
 

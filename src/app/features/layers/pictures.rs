@@ -9,7 +9,7 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::BoundaryMarks;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec,
+    Combine, DepthRule, DepthSizes, Depths, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec,
 };
 use meshbrush_kit::kit::document_id::DocumentId;
 use meshbrush_kit::kit::jobs::{Jobs, Slot};

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use super::PathCommand;
-use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer};
 use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::{
     Addition, FrameState, LayerKindRow, button_rows, range_rows, remark, set_kind_once,

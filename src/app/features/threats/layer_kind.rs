@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use super::options::set_threat;
 use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand};
 use crate::app::features::threats::ThreatEditor;
-use meshbrush_core::layers::{Layer, LayerKind, Threats};
+use meshbrush_core::layers::{Layer, Threats};
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, button_rows};
 use meshbrush_ui::widgets::{Icon, NumberRow, ValueRow, format};

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::threats_layer;
 use crate::app::features::threats::ThreatEditor;
-use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_core::layers::{Layer, Threat, ThreatLaw, Threats};
 use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand};
 use meshbrush_kit::kit::{FrameState, StripItem, end_gesture_when_released, set_kind};
 use meshbrush_ui::widgets::{SliderRow, segmented};

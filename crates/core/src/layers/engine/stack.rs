@@ -5,8 +5,8 @@ use super::cells::{Cells, Cut};
 use super::compiled::CompiledLayer;
 use super::gradation;
 use super::parts::{KnownParts, PartId};
-use super::patch::Patch;
-use super::reading::{Answer, largest_below};
+use super::patch::TouchedCells;
+use super::reading::{RangeAnswer, largest_below};
 use super::search::any_cell;
 use crate::earth::EdgeLengths;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
@@ -197,7 +197,7 @@ impl Stack {
                 }
             } else if !layer.is_masked_out(&around, &self.lattice) {
                 let mut ask =
-                    |cells: &Cells| self.asks(count, paint, &Patch::touching(*cells, triangle), limit);
+                    |cells: &Cells| self.asks(count, paint, &TouchedCells::touching(*cells, triangle), limit);
                 return any_cell(triangle, around, &mut ask);
             }
             count -= 1;
@@ -207,10 +207,16 @@ impl Stack {
 
     /// Returns the share of some cells in which the lowest `count` layers together ask for less than a limit,
     /// and the cut that divides them for a closer answer.
-    fn asks(&self, count: usize, paint: &PaintLayers, patch: &Patch, limit: usize) -> (Share, Option<Cut>) {
+    fn asks(
+        &self,
+        count: usize,
+        paint: &PaintLayers,
+        patch: &TouchedCells,
+        limit: usize,
+    ) -> (Share, Option<Cut>) {
         let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
         let layer = &self.layers[below];
-        let (Answer { asks, present }, cut) = layer.answer(paint, patch, limit, &self.lattice);
+        let (RangeAnswer { asks, present }, cut) = layer.answer(paint, patch, limit, &self.lattice);
         let permits = present.not().or(asks);
         match layer.combine {
             Combine::Finest if asks == Share::All => return (Share::All, None),

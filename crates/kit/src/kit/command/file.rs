@@ -8,7 +8,7 @@ use crate::kit::FileRequest;
 use crate::kit::background::WorkId;
 use crate::kit::home::Home;
 use meshbrush_core::document::{Document, Example};
-use meshbrush_ui::widgets::Answer;
+use meshbrush_ui::widgets::ConfirmAnswer;
 
 /// One thing to do with documents and their files.
 #[derive(Clone, Debug, PartialEq)]

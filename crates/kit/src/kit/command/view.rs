@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::CommandSet;
 use crate::kit::view::{CanvasAid, FieldOverlay};
-use crate::kit::{Place, Tab};
+use crate::kit::{DockPlace, Tab};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::TriangleId;
 use meshbrush_render::colormap::Colormap;

@@ -6,7 +6,6 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use super::JobKind;
-use super::Kind;
 use crate::kit::clock::{Duration, Instant};
 
 /// Runs work on threads: so many of each kind at once, the others in their order. A thread ends when no work

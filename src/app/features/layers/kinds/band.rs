@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::raster::source_rows;
 use crate::app::features::layers::OPEN_BAND;
-use meshbrush_core::layers::{BandLayer, Layer, LayerKind};
+use meshbrush_core::layers::{BandLayer, Layer};
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
 use meshbrush_ui::widgets::{Icon, NumberRow};

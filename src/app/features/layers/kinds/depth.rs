@@ -6,7 +6,7 @@ use super::raster::source_rows;
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::layers::{OPEN_DEPTH, way_to_metres};
 use meshbrush_core::domain::DepthContour;
-use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, Layer, LayerKind, PositiveDepth, wavelength};
+use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, Layer, PositiveDepth, wavelength};
 use meshbrush_kit::kit::command::{Command, FileCommand};
 use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
 use meshbrush_mesh::text::LengthUnit;
