@@ -45,7 +45,7 @@ impl Document {
             let replaced = first || follower.take_change() == Some(MeshChange::Replaced);
             let triangles = follower.mesh().triangle_count();
             *held = Some(follower);
-            Ok(Change { before, triangles, replaced, seconds: begun.elapsed().as_secs_f64() })
+            Ok::<_, String>(Change { before, triangles, replaced, seconds: begun.elapsed().as_secs_f64() })
         })?;
         updated.map_err(mesh_error)
     }

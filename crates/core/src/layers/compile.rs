@@ -39,7 +39,7 @@ impl Layer {
 }
 
 /// Returns the files of depths of a stack, from the top to the bottom, with the meaning of their values.
-fn depths_of(stack: &[Layer], lattice: &Lattice) -> Vec<(Cover, DepthSizes)> {
+pub(super) fn depths_of(stack: &[Layer], lattice: &Lattice) -> Vec<(Cover, DepthSizes)> {
     let files = DepthSurface::of(stack).map_or_else(Vec::new, |surface| surface.0);
     let file = |(layer, depths): (&Layer, &Depths)| {
         (Cover::new(&depths.source().raster, layer.mask.as_ref(), lattice), *depths.sizes())

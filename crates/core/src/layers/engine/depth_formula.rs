@@ -130,7 +130,8 @@ mod tests {
     use super::*;
     use crate::domain::corners;
     use crate::geometry::Rect;
-    use crate::layers::{DepthRule, Depths, Mask, PositiveDepth, RasterSource};
+    use crate::layers::compile::depths_of;
+    use crate::layers::{DepthRule, Depths, Layer, Mask, PositiveDepth, RasterSource};
     use crate::raster::{Raster, RasterPyramid};
 
     /// Files of depths whose pixels are lattice cells times a power of two, some masked, with gaps.
@@ -178,7 +179,7 @@ mod tests {
         for round in 0..2000 {
             let layers = files(&mut random);
             let formula = Formula::parse_of_size(texts[round % texts.len()]).unwrap();
-            let values = DepthFormula::new(&formula, Quantity::Diameter, &layers, &lattice);
+            let values = DepthFormula::new(&formula, Quantity::Diameter, &depths_of(&layers, &lattice));
             let min = [0, 0].map(|_| random.i64(0..extent));
             let reach = 1 << random.u32(0..lattice.extent().x.ilog2());
             let cells = Cells { min, max: min.map(|v| (v + random.i64(1..=reach)).min(extent)) };

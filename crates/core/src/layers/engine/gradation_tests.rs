@@ -46,7 +46,7 @@ fn random_threat(random: &mut fastrand::Rng) -> Threat {
 fn radial_referee(field: &SizeField, threat: &Threat, distance: f64, slope: f64) -> f64 {
     let carried = |radius: f64| {
         let at = threat.at + dvec2(radius, 0.0);
-        field.ungraded_at(PaintLayers::blank(), at).target + slope * (distance - radius).abs()
+        field.stack.ungraded_at(PaintLayers::blank(), at).target + slope * (distance - radius).abs()
     };
     let (mut low, mut high) = (0.0, threat.range.min(distance));
     let mut best = carried(distance);
@@ -75,7 +75,7 @@ fn what_a_threat_carries_is_found_up_to_the_tolerance() {
         let found = field.target_at(PaintLayers::blank(), point);
         let expected = radial_referee(&field, &threat, distance, slope);
         assert!((found / expected - 1.0).abs() < 2e-6, "{threat:?} {point}: {found}, not {expected}");
-        carried += usize::from(found < 0.99 * field.ungraded_at(PaintLayers::blank(), point).target);
+        carried += usize::from(found < 0.99 * field.stack.ungraded_at(PaintLayers::blank(), point).target);
     }
     assert!(carried > 60, "{carried}");
 }
@@ -108,22 +108,23 @@ fn squares_that_are_left_out_have_no_least_value_inside() {
         let field = field(kinds.into_iter().skip(2 - count), slope);
         let origin = field.lattice().bounds().min;
         let place = Point(dvec2(random.f64(), random.f64()));
-        let value =
-            |p: DVec2| field.ungraded_at(paint, origin + p).target + slope * p.distance(place.nearest(p));
-        let search = GradationSearch { field: &field, paint, place: Point(place.0), slope, finest: 4 };
+        let value = |p: DVec2| {
+            field.stack.ungraded_at(paint, origin + p).target + slope * p.distance(place.nearest(p))
+        };
+        let search = GradationSearch { stack: &field.stack, paint, place: Point(place.0), slope, finest: 4 };
         let known = &mut KnownParts::default();
         for _ in 0..300 {
             let bits = random.u32(22..30);
             let [column, row] = [0, 0].map(|_| random.u32(0..1 << (30 - bits)));
             let square = LatticeSquare { bits, column, row };
             let Some(cells) = square.cells(field.lattice().extent()) else { continue };
-            let id = known.square(&field, paint, square);
+            let id = known.square(&field.stack, paint, square);
             let Some((_, part)) = search.part(known, id, f64::INFINITY) else { continue };
             if search.is_steep(known, id) {
                 continue;
             }
             let rect = search.rect(known, id);
-            let (of_square, _) = slopes(&field, paint, &cells, Counting::ALL);
+            let (of_square, _) = slopes(&field.stack, paint, &cells, Counting::ALL);
             steep_ones += usize::from(of_square.exceed(slope));
             let mut least = least_on_border(&rect, value, of_square.longest() + slope);
             if part.distance == 0.0 {
@@ -175,9 +176,10 @@ fn closed_forms_give_a_value_that_is_carried_and_no_more_than_a_search_through_a
         let (field, paint) = (field(sea(&mut random), slope), PaintLayers::blank());
         for _ in 0..40 {
             let point = dvec2(random.f64(), random.f64());
-            let before = (field.ungraded_at(paint, point).target, point);
+            let before = (field.stack.ungraded_at(paint, point).target, point);
             let all = &mut KnownParts::of(Counting::ALL);
-            let (searched, _) = gradation::least(&field, paint, all, point, (slope, Accuracy::Close), before);
+            let (searched, _) =
+                gradation::least(&field.stack, paint, all, point, (slope, Accuracy::Close), before);
             let decision = field.decision_at(paint, point);
             let found = field.target_at(paint, point);
             assert_eq!(found, decision.target);
@@ -187,7 +189,7 @@ fn closed_forms_give_a_value_that_is_carried_and_no_more_than_a_search_through_a
             let nudges = (0..16).map(|n| decision.from + 1e-9 * DVec2::from_angle(f64::from(n)));
             let carried = nudges
                 .chain([decision.from])
-                .map(|from| field.ungraded_at(paint, from).target + slope * from.distance(point));
+                .map(|from| field.stack.ungraded_at(paint, from).target + slope * from.distance(point));
             let carried = carried.fold(f64::INFINITY, f64::min);
             assert!((carried / found - 1.0).abs() < 1e-6, "{carried} {found} at {point}");
             by_straits += usize::from(decision.from != point && decision.layer == Some(LayerId(0)));

@@ -132,8 +132,8 @@ mod tests {
         let (work, minorants) = loop {
             certificate.advance_slice().unwrap();
             match certificate.under_way.take().unwrap() {
-                (work, Stage::Solve(minorants)) => break (work, minorants),
-                (work, stage) => certificate.under_way = UnderWay::of(work, stage),
+                (work, ProgramStage::Solve(minorants)) => break (work, minorants),
+                (work, stage) => certificate.under_way = UnderWay::new(work, stage),
             }
         };
         let program = certificate.program(&work, &minorants);
