@@ -368,6 +368,18 @@ fn a_grid_that_is_too_large_is_refused_before_memory_is_taken() {
 }
 
 #[test]
+fn histories_may_be_long_and_names_in_any_encoding() {
+    let history: &'static str = "ncks -O in.nc out.nc\n".repeat(5_000).leak();
+    let mut file = sample().with("history", Of::Text(history));
+    file.z().name = "höhe";
+    let mut bytes = file.bytes();
+    let at = bytes.windows(2).position(|pair| pair == "ö".as_bytes()).unwrap();
+    bytes[at..at + 2].copy_from_slice(b"\xf6\x7f");
+    let grid = decode(Cursor::new(bytes), None, &GridPlace::default(), &Meter::default()).unwrap();
+    assert_eq!(grid.raster.values(), values(&counted()));
+}
+
+#[test]
 fn every_cut_and_every_changed_byte_gives_a_result_or_a_sentence() {
     let mut file = sample().with("_FillValue", Of::Numbers(5, vec![3.0]));
     file.record = Some(0);
