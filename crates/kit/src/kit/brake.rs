@@ -14,11 +14,8 @@
 
 use crate::kit::clock::Instant;
 
-use super::session::Session;
-use super::slices::{Followed, draw_stroke, follow_document};
-use super::threads::Threads;
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{CountEstimate, Document, Follower, Settings, Stage};
+use meshbrush_core::document::{CountEstimate, Document, Follower, Settings};
 use meshbrush_mesh::mesh::Progress;
 
 /// The mesh grows by this many triangles without an estimate: less than a tenth of a second.
@@ -189,7 +186,7 @@ impl GrowthGuard {
     }
 
     /// Returns whether the mesh of other settings waits.
-    fn holds_other(&self, settings: &Settings) -> bool {
+    pub fn holds_other(&self, settings: &Settings) -> bool {
         match &self.state {
             GuardState::Asking { settings: held, .. } => **held != *settings,
             GuardState::Estimating(work) => work.0 != *settings,
@@ -230,79 +227,6 @@ fn asks_first(before: usize, after: usize, budget: usize) -> bool {
     let many = added > MANY.max(before / 2);
     let tenfold = after > LARGE && after > before.saturating_mul(10);
     added > 0 && (many || tenfold || after > budget)
-}
-
-impl Session {
-    /// Brings the mesh closer to the document, up to the number of triangles for which a question is asked.
-    /// Returns whether work is left that can be done now.
-    pub(super) fn follow_as_agreed(&mut self, threads: &Threads, deadline: Instant) -> bool {
-        let Self { document, follower, brake, pace, .. } = self;
-        if brake.holds_other(document.settings()) {
-            // Or the follower would complete the mesh that is held, before that of the document.
-            follower.drop_update();
-        }
-        let Some(most) = brake.most(document, follower) else {
-            draw_stroke(document, deadline);
-            let estimates = threads.run(|| brake.advance(document, follower, deadline));
-            self.ask_first();
-            return estimates || !self.brake.holds();
-        };
-        match threads.run(|| follow_document(document, follower, pace, most, deadline)) {
-            Ok(Followed::Wholly) => false,
-            Ok(Followed::Partly) => true,
-            Ok(Followed::TooFar) => {
-                if let Stage::Refining { triangles } = follower.stage() {
-                    brake.stop(document, follower, triangles);
-                }
-                true
-            }
-            Err(error) => {
-                self.take_back(&error);
-                true
-            }
-        }
-    }
-
-    /// Asks whether the mesh is to have very many triangles, while that is open.
-    fn ask_first(&mut self) {
-        let budget = self.document.settings().limits().most_triangles() as u64;
-        // While a newer value is estimated, the question about the last one stays in its place.
-        if let Some(need) = self.brake.question() {
-            self.notices.ask(need, self.brake.triangles_before(), budget);
-        }
-    }
-
-    /// Returns what the settings of the document need, while that is asked before the mesh follows them.
-    pub fn question(&self) -> Option<Need> {
-        self.brake.question()
-    }
-
-    /// Returns what the document needs, where its mesh has less: it waits for an answer, or a budget stopped
-    /// it.
-    pub fn need(&self) -> Option<Need> {
-        self.brake.need()
-    }
-
-    /// Returns whether the mesh waits for an estimate or for an answer.
-    pub fn is_held(&self) -> bool {
-        self.brake.holds()
-    }
-
-    /// Keeps the mesh, where a question is open: returns to the settings that it was made from. Returns
-    /// whether there was a question.
-    pub fn keep_mesh(&mut self) -> bool {
-        let asks = self.brake.holds();
-        if let Some(settings) = self.brake.kept_settings().filter(|_| asks) {
-            let settings = settings.clone();
-            self.document.return_to(&settings);
-        }
-        asks
-    }
-
-    /// Lets the mesh have the triangles that were asked for.
-    pub fn apply_anyway(&mut self) {
-        self.brake.agree();
-    }
 }
 
 #[cfg(test)]

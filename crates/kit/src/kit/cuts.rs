@@ -5,7 +5,6 @@
 use std::collections::VecDeque;
 
 use super::jobs::{Job, JobKind, Jobs, Taken};
-use super::session::Session;
 use meshbrush_core::document::{Document, Drawing, DrawingError, DrawnPart, DrawnShape, Setting};
 use meshbrush_core::domain::CutShape;
 use meshbrush_mesh::geometry::Rect;
@@ -185,29 +184,6 @@ impl PolygonEditQueue {
                 self.discard(document);
                 Ok(())
             }
-        }
-    }
-}
-
-impl Session {
-    /// Takes finished cuts into the document, waiting for them as long as the frame may. Returns whether any
-    /// are left.
-    pub fn advance_cuts(&mut self, jobs: &Jobs) -> bool {
-        match self.cuts.advance(&mut self.document, jobs) {
-            Ok(left) => left,
-            Err(error) => {
-                self.report_edit(error);
-                self.is_cutting()
-            }
-        }
-    }
-
-    /// Drops the cut in progress: all of it, where the brush is still down.
-    pub fn drop_cut(&mut self) {
-        let begun = self.document.is_in_gesture();
-        self.cuts.discard(&mut self.document);
-        if begun {
-            self.document.undo();
         }
     }
 }

@@ -6,7 +6,6 @@ use glam::DVec2;
 
 use super::derivation::{Derivation, MeasuredMesh};
 use super::jobs::{Jobs, Slot, Wanted};
-use super::session::Session;
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_core::surface::HeightSource;
 use meshbrush_mesh::mesh::{Mesh, PatchPieces, TriangleId};
@@ -63,7 +62,7 @@ pub struct Surface<'a> {
 
 impl HeightFinder {
     /// Returns the heights of the mesh as it is.
-    fn heights(&self, document: &Document, follower: &Follower, derivation: &Derivation) -> Heights<'_> {
+    pub fn heights(&self, document: &Document, follower: &Follower, derivation: &Derivation) -> Heights<'_> {
         if HeightSource::new(follower.surface().map(|rule| &**rule), &document.settings().layers).is_none() {
             return Heights::Missing;
         }
@@ -108,32 +107,6 @@ impl HeightFinder {
         if self.found.last().is_some() || self.found.is_running() {
             self.found.stop(jobs);
         }
-    }
-}
-
-impl Session {
-    /// Returns the heights of the mesh on the screen; [`Self::find_heights`] finds them.
-    pub fn heights(&self) -> Heights<'_> {
-        self.heights.heights(&self.document, &self.follower, self.derivation())
-    }
-
-    /// Returns whether the heights of the mesh on the screen are still being found.
-    pub fn seeks_heights(&self) -> bool {
-        match self.heights() {
-            Heights::Known(surface) => !surface.is_current(),
-            Heights::Sought => true,
-            Heights::Missing => false,
-        }
-    }
-
-    /// Finds the heights of the mesh while they are `wanted`, waiting for them as long as the frame may.
-    /// Returns whether they are being found.
-    pub fn find_heights(&mut self, wanted: bool, jobs: &Jobs) -> bool {
-        if wanted {
-            return self.heights.advance(&self.document, &self.follower, &self.derivation, jobs);
-        }
-        self.heights.stop(jobs);
-        false
     }
 }
 

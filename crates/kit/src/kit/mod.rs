@@ -9,7 +9,6 @@
 //! ```
 
 pub mod ages;
-mod another_document;
 pub mod background;
 pub mod boundary;
 pub mod brake;

@@ -1,8 +1,6 @@
 //! What an edit of the size did to the number of triangles, and what another one would do.
 
-use crate::kit::clock::Instant;
-
-use super::session::Session;
+use super::clock::Instant;
 use meshbrush_core::document::{Document, Follower, Price, Setting, SettingKind, SizePricer};
 use meshbrush_mesh::mesh::Progress;
 
@@ -37,49 +35,40 @@ impl SizeChange {
             self.last = Some(Edit { kind, before: follower.mesh().triangle_count() });
         }
     }
-}
 
-impl Session {
-    /// Returns by how many triangles the last edit of the size changed the mesh, if it was one of these
-    /// settings.
-    pub fn last_size_change(&self, kinds: &[SettingKind]) -> Option<i64> {
-        let last = self.size_change.last.as_ref().filter(|last| kinds.contains(&last.kind))?;
-        Some(self.mesh().triangle_count() as i64 - last.before as i64)
+    /// Returns the triangles before the last edit of the size, if it was one of these settings.
+    pub fn triangles_before(&self, kinds: &[SettingKind]) -> Option<usize> {
+        self.last.as_ref().filter(|last| kinds.contains(&last.kind)).map(|last| last.before)
     }
 
-    /// Considers a setting, or none: its price is computed in the coming frames.
+    /// Considers a setting, or none: [`Self::advance`] computes its price.
     pub fn consider(&mut self, candidate: Option<Setting>) {
-        self.size_change.candidate = candidate;
+        self.candidate = candidate;
     }
 
     /// Returns the setting that is considered.
     pub fn considered(&self) -> Option<&Setting> {
-        self.size_change.candidate.as_ref()
+        self.candidate.as_ref()
     }
 
     /// Returns the price of the setting that is considered, once known.
-    pub fn considered_price(&self) -> Option<Price> {
-        self.size_change.pricer.price()
+    pub fn price(&self) -> Option<Price> {
+        self.pricer.price()
     }
 
     /// Whether that price is still being computed.
-    pub fn considered_progress(&self) -> Progress {
-        self.size_change.pricer.progress()
+    pub fn progress(&self) -> Progress {
+        self.pricer.progress()
     }
 
     /// Computes the price of the setting that is considered until `deadline`. Returns whether work is left.
-    pub fn price_setting(&mut self, deadline: Instant) -> bool {
-        let settings = self.document().settings();
-        let wanted = self.size_change.candidate.clone().map(|setting| setting.applied_to(settings));
+    pub fn advance(&mut self, document: &Document, follower: &Follower, deadline: Instant) -> bool {
+        let wanted = self.candidate.clone().map(|setting| setting.applied_to(document.settings()));
         let wanted = wanted.and_then(|settings| settings.checked().ok());
-        let mut pricer = std::mem::take(&mut self.size_change.pricer);
-        let (document, follower) = (self.document(), self.follower());
-        pricer.ask(wanted.as_ref(), document, follower);
-        while pricer.progress() == Progress::More && Instant::now() < deadline {
-            pricer.advance(document, follower, SLICE);
+        self.pricer.ask(wanted.as_ref(), document, follower);
+        while self.pricer.progress() == Progress::More && Instant::now() < deadline {
+            self.pricer.advance(document, follower, SLICE);
         }
-        let left = pricer.progress() == Progress::More;
-        self.size_change.pricer = pricer;
-        left
+        self.pricer.progress() == Progress::More
     }
 }
