@@ -469,12 +469,16 @@ fn every_command_has_an_arm() {
     assert_none(with_word(window, "unreachable"), "the compiler knows what the window does with a value:");
 }
 
-/// Files with unsafe code: memory that grows in place, and a look at standard output before `main`.
-const UNSAFE_FILES: [&str; 2] =
-    ["crates/mesh/src/mesh/kernel/memory.rs", "crates/cli/src/cli/standard_output.rs"];
+/// Files with unsafe code: memory that grows in place, values of a library whose types have no public name,
+/// and a look at standard output before `main`.
+const UNSAFE_FILES: [&str; 3] = [
+    "crates/mesh/src/mesh/kernel/memory.rs",
+    "crates/core/src/path/certificate/solver.rs",
+    "crates/cli/src/cli/standard_output.rs",
+];
 
 #[test]
-fn unsafe_code_is_in_two_files() {
+fn unsafe_code_is_in_three_files() {
     let others = read_src().iter().filter(|file| !UNSAFE_FILES.contains(&file.path.as_str()));
     assert_none(with_word(others, "unsafe"), "unsafe code is in UNSAFE_FILES only:");
 }

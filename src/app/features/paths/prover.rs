@@ -2,10 +2,8 @@
 //! reached.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::work::FoundPath;
-
 use meshbrush_core::domain::Domain;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
@@ -19,7 +17,7 @@ pub struct Prover {
     /// The requested width of the interval, as a share of the cost.
     pub width: f64,
     /// The job that certifies a path. Each proof that it sends is better than the previous one.
-    running: Option<Running>,
+    running: Option<Job<Proof>>,
     /// How many of the paths were certified, or as well as possible.
     done: usize,
 }
@@ -31,18 +29,6 @@ pub struct FoundPaths {
     pub density: Arc<dyn CostDensity>,
     /// The triangles that they go through, and the area that these are in.
     pub mesh: Arc<PathMesh>,
-}
-
-/// A job that certifies a path. Dropped, it ends within an iteration of the solver.
-struct Running {
-    job: Job<Proof>,
-    stop: Arc<AtomicBool>,
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-    }
 }
 
 /// The state of a certificate after a step.
@@ -83,7 +69,7 @@ impl Prover {
     /// Takes what was proved, waiting as long as the frame may, and begins the next certificate.
     pub fn advance(&mut self, mut paths: Vec<&mut FoundPath>, domain: &Domain, jobs: &Jobs) {
         while let Some(path) = paths.get_mut(self.done) {
-            let Some(running) = &self.running else {
+            let Some(proof) = &self.running else {
                 if path.solution.gap() <= self.width {
                     self.done += 1;
                 } else {
@@ -92,7 +78,7 @@ impl Prover {
                 }
                 continue;
             };
-            match running.job.take(jobs) {
+            match proof.take(jobs) {
                 Taken::Value(Proof { solution, end }) => {
                     path.end = end;
                     if let Some(known) = &self.known {
@@ -108,16 +94,14 @@ impl Prover {
         }
     }
 
-    fn start(&self, solution: &Solution, domain: &Domain, jobs: &Jobs) -> Option<Running> {
+    fn start(&self, solution: &Solution, domain: &Domain, jobs: &Jobs) -> Option<Job<Proof>> {
         let FoundPaths { density, mesh } = self.known.clone()?;
         let (path, upper) = (solution.points.clone(), solution.upper);
         let task = CertificateTask::in_rectangle(domain.bounds, density, path, upper, self.width).ok()?;
         let (domain, solution) = (domain.clone(), solution.clone());
-        let stop: Arc<AtomicBool> = Arc::default();
-        let signal = Arc::clone(&stop);
         let begin = move || {
             let task = task.in_domain(&domain).in_area(mesh.area().clone());
-            Some(PathCertificate::new(&solution, &task).ok()?.with_search(mesh).stopped_by(&signal))
+            Some(PathCertificate::new(&solution, &task).ok()?.with_search(mesh))
         };
         let advance = |certificate: &mut PathCertificate, output: &Output<Proof>| {
             match certificate.advance_slice() {
@@ -129,6 +113,6 @@ impl Prover {
             let goes_on = output.send(Proof { solution: certificate.solution(), end }) && end.is_none();
             if goes_on { Progress::More } else { Progress::Done }
         };
-        Some(Running { job: jobs.start_in_slices(JobKind::Compute, begin, advance), stop })
+        Some(jobs.start_in_slices(JobKind::Compute, begin, advance))
     }
 }

@@ -7,17 +7,13 @@
 //!
 //! Gradient and bound are divided by ℓ, and v by the cost of the known path, so that all numbers are near 1.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{
-    DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
-};
+use clarabel::solver::{DefaultSettings, DefaultSettingsBuilder, SupportedConeT};
 use glam::DVec2;
 
 use super::minorant::Minorant;
 use super::quadratic::QuadraticSpace;
+use super::solver::ConeSolver;
 
 /// The solver's answer. It need not be optimal or feasible to be useful.
 pub(super) struct ConicSolution {
@@ -30,16 +26,7 @@ pub(super) struct ConicSolution {
     pub steps: u32,
 }
 
-/// Why there is no solution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unsolved {
-    /// The work was told to stop.
-    Stopped,
-    /// The solver does not take the program, or failed so badly that there is no answer.
-    Failed,
-}
-
-/// The program of a space of functions.
+/// The second-order cone program of a space of functions.
 pub(super) struct ConicProgram<'a> {
     pub space: &'a QuadraticSpace,
     /// ℓ in each triangle.
@@ -55,24 +42,8 @@ pub(super) struct ConicProgram<'a> {
 }
 
 impl ConicProgram<'_> {
-    /// Solves it. Once `stop` is true, that ends within an iteration.
-    pub(super) fn solve(&self, stop: Arc<AtomicBool>) -> Result<ConicSolution, Unsolved> {
-        let mut solver = self.solver().ok_or(Unsolved::Failed)?;
-        solver.set_termination_callback(move |_| stop.load(Ordering::Relaxed));
-        solver.solve();
-        let solution = solver.solution;
-        match solution.status {
-            SolverStatus::CallbackTerminated => Err(Unsolved::Stopped),
-            _ if solution.x.iter().all(|value| value.is_finite()) => Ok(ConicSolution {
-                function: self.function(&solution.x),
-                flows: self.flows(&solution.z),
-                steps: solution.iterations,
-            }),
-            _ => Err(Unsolved::Failed),
-        }
-    }
-
-    fn solver(&self) -> Option<DefaultSolver<f64>> {
+    /// Begins to solve it. `None` where the solver does not take it.
+    pub(super) fn solver(&self) -> Option<ConeSolver> {
         let rows = 9 * self.space.elements.len();
         let columns = self.space.values - 1;
         let matrix = self.matrix(rows, columns);
@@ -84,8 +55,18 @@ impl ConicProgram<'_> {
                 objective[column] -= weight;
             }
         }
-        let none = CscMatrix::zeros((columns, columns));
-        DefaultSolver::new(&none, &objective, &matrix, &limits, &cones, self.settings()).ok()
+        ConeSolver::new(&objective, &matrix, &limits, &cones, self.settings())
+    }
+
+    /// Returns the solution; `None` where the solver failed without any answer.
+    pub(super) fn solution(&self, solver: &ConeSolver) -> Option<ConicSolution> {
+        let solution = solver.solution();
+        let is_finite = solution.x.iter().all(|value| value.is_finite());
+        is_finite.then(|| ConicSolution {
+            function: self.function(&solution.x),
+            flows: self.flows(&solution.z),
+            steps: solution.iterations,
+        })
     }
 
     fn settings(&self) -> DefaultSettings<f64> {

@@ -64,6 +64,7 @@ impl PathCertificate {
     /// # Errors
     /// Fails as [`Certificate::new`] does.
     pub fn new(solution: &Solution, task: &CertificateTask) -> Result<Self, PathError> {
+        let stop: Arc<AtomicBool> = Arc::default();
         let count = solution.stops.len();
         let leg = |(number, ends): (usize, &[usize])| {
             let path = solution.points[ends[0]..=ends[1]].to_vec();
@@ -71,8 +72,9 @@ impl PathCertificate {
             let figures = Solution::new(path.clone(), &*task.cost, TOLERANCE * task.width);
             let solution = Solution { walls, ..figures };
             let upper = solution.upper;
-            let certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })
+            let mut certificate = Certificate::new(CertificateTask { path, upper, ..task.clone() })
                 .map_err(|error| error.of_leg(number, count))?;
+            certificate.stop = Arc::clone(&stop);
             Ok(Leg { certificate, solution, searches: MOST_SEARCHES })
         };
         let legs = solution.stops.windows(2).enumerate().map(leg).collect::<Result<_, _>>()?;
@@ -140,12 +142,9 @@ impl PathCertificate {
         self.legs.iter().map(|leg| leg.certificate.nodes()).sum()
     }
 
-    /// Returns this work, which a signal stops on all legs, like [`Certificate::stop_signal`].
-    pub fn stopped_by(mut self, stop: &Arc<AtomicBool>) -> Self {
-        for leg in &mut self.legs {
-            leg.certificate.stop = Arc::clone(stop);
-        }
-        self
+    /// Returns a signal that stops the work on all legs, like [`Certificate::stop_signal`].
+    pub fn stop_signal(&self) -> Arc<AtomicBool> {
+        self.legs.first().map(|leg| leg.certificate.stop_signal()).unwrap_or_default()
     }
 
     /// Solves one program, or takes a step of the search for a better path, for the leg with the widest

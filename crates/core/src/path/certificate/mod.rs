@@ -47,6 +47,7 @@ mod conic_program;
 mod proof;
 mod quadratic;
 mod setup;
+mod solver;
 mod task;
 mod triangle;
 mod under_way;
@@ -60,7 +61,7 @@ use glam::DVec2;
 use super::{Passage, PathError, PathMesh};
 use crate::geometry::Rect;
 use crate::mesh::{Limits, Mesh, Progress};
-use conic_program::{ConicProgram, ConicSolution, Unsolved};
+use conic_program::{ConicProgram, ConicSolution};
 use marking::{bisections, estimates};
 use minorant::Minorant;
 use proof::proven_gain;
@@ -132,7 +133,7 @@ pub struct Certificate {
     nodes: usize,
     /// The work of all programs so far: nodes times steps of the solver.
     work: u64,
-    /// Programs in a row that hardly raised the bound.
+    /// Programmes in a row that hardly raised the bound.
     idle: usize,
     end: Option<CertificateEnd>,
     stop: Arc<AtomicBool>,
@@ -230,8 +231,8 @@ impl Certificate {
         Ok(self.end)
     }
 
-    /// Does a slice of [`Self::advance`]: some milliseconds on one thread, except that the program is solved
-    /// in one. It is done once the mesh is refined, or the work has ended or was told to stop.
+    /// Does a slice of [`Self::advance`], some milliseconds on one thread. It is done once the program is
+    /// solved and the mesh refined, or the work has ended or was told to stop.
     ///
     /// # Errors
     /// Fails as [`Self::advance`] does.
@@ -240,21 +241,23 @@ impl Certificate {
             self.under_way = UnderWay::default();
             return Ok(Progress::Done);
         }
-        let Some((work, stage)) = self.under_way.take() else { return self.begin_program() };
+        let Some((work, stage)) = self.under_way.take() else { return self.begin_programme() };
         let next = match stage {
             ProgramStage::Minorants(mut found) => match self.find_minorants(&work, &mut found) {
                 Progress::More => ProgramStage::Minorants(found),
                 Progress::Done => ProgramStage::Edges(found),
             },
-            ProgramStage::Edges(found) => ProgramStage::Solve(self.minorants_of(&work.space, found)?),
-            ProgramStage::Solve(minorants) => match self.program(&work, &minorants).solve(self.stop_signal())
-            {
-                Ok(solution) => ProgramStage::Solved(minorants, solution),
-                Err(Unsolved::Stopped) => return Ok(Progress::Done),
-                Err(Unsolved::Failed) => {
-                    self.end = Some(CertificateEnd::SolverFailed);
-                    return Ok(Progress::Done);
-                }
+            ProgramStage::Edges(found) => ProgramStage::Begin(self.minorants_of(&work.space, found)?),
+            ProgramStage::Begin(minorants) => match self.program(&work, &minorants).solver() {
+                Some(solver) => ProgramStage::Solve(minorants, Box::new(solver)),
+                None => return Ok(self.solver_failed()),
+            },
+            ProgramStage::Solve(minorants, mut solver) => match solver.advance() {
+                Progress::More => ProgramStage::Solve(minorants, solver),
+                Progress::Done => match self.program(&work, &minorants).solution(&solver) {
+                    Some(solution) => ProgramStage::Solved(minorants, solution),
+                    None => return Ok(self.solver_failed()),
+                },
             },
             ProgramStage::Solved(minorants, solution) => {
                 self.take(&work, &minorants, &solution);
@@ -266,7 +269,7 @@ impl Certificate {
     }
 
     /// Finds the triangles of the next program.
-    fn begin_program(&mut self) -> Result<Progress, PathError> {
+    fn begin_programme(&mut self) -> Result<Progress, PathError> {
         let kept = setup::reachable(&self.mesh, &self.task)?;
         let space = QuadraticSpace::new(&self.mesh, &kept.triangles);
         if self.work + (space.nodes as u64) * DEFAULT_STEPS > MOST_WORK {
@@ -290,6 +293,11 @@ impl Certificate {
             unit: self.task.upper,
             accuracy: (ACCURACY * self.task.width).clamp(1e-8, 1e-4),
         }
+    }
+
+    fn solver_failed(&mut self) -> Progress {
+        self.end = Some(CertificateEnd::SolverFailed);
+        Progress::Done
     }
 
     /// Takes the bound of a solution, and refines the mesh for the next program.

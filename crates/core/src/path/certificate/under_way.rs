@@ -8,6 +8,7 @@ use super::edges::lower_at_edges;
 use super::minorant::Minorant;
 use super::quadratic::{QuadraticElement, QuadraticSpace};
 use super::setup::ReachableTriangles;
+use super::solver::ConeSolver;
 use crate::mesh::Progress;
 use crate::path::PathError;
 
@@ -30,8 +31,9 @@ pub(super) enum ProgramStage {
     Minorants(Vec<(u32, Minorant)>),
     /// They are compared at the edges.
     Edges(Vec<(u32, Minorant)>),
-    /// The program is made and solved.
-    Solve(Vec<Minorant>),
+    /// The program is made.
+    Begin(Vec<Minorant>),
+    Solve(Vec<Minorant>, Box<ConeSolver>),
     Solved(Vec<Minorant>, ConicSolution),
 }
 
@@ -96,48 +98,5 @@ impl Certificate {
             }
         }
         Ok(all)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-    use std::sync::atomic::AtomicBool;
-
-    use glam::{DVec2, dvec2};
-
-    use super::super::CertificateTask;
-    use super::super::conic_program::Unsolved;
-    use super::*;
-    use crate::geometry::Rect;
-    use crate::path::{CostDensity, CostRange};
-
-    struct One;
-
-    impl CostDensity for One {
-        fn at(&self, _: DVec2) -> f64 {
-            1.0
-        }
-
-        fn range(&self, _: &Rect) -> CostRange {
-            CostRange { least: 1.0, greatest: 1.0 }
-        }
-    }
-
-    #[test]
-    fn a_program_that_is_told_to_stop_is_not_solved() {
-        let path = vec![dvec2(0.1, 0.2), dvec2(0.9, 0.8)];
-        let task = CertificateTask::in_rectangle(Rect::UNIT, Arc::new(One), path, 1.0, 0.001);
-        let mut certificate = Certificate::new(task.unwrap()).unwrap();
-        let (work, minorants) = loop {
-            certificate.advance_slice().unwrap();
-            match certificate.under_way.take().unwrap() {
-                (work, ProgramStage::Solve(minorants)) => break (work, minorants),
-                (work, stage) => certificate.under_way = UnderWay::new(work, stage),
-            }
-        };
-        let program = certificate.program(&work, &minorants);
-        let solved = |stop| program.solve(Arc::new(AtomicBool::new(stop))).map(|solution| solution.steps > 0);
-        assert_eq!((solved(true), solved(false)), (Err(Unsolved::Stopped), Ok(true)));
     }
 }
