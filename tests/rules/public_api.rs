@@ -80,6 +80,11 @@ fn everything_in_a_public_signature_has_a_public_name() {
     for (export, line) in
         exports.iter().flat_map(|(export, lines)| lines.iter().map(move |line| (export, line)))
     {
+        // A trait without a public name is one between our packages: nobody else can call its functions.
+        if line.trim().strip_prefix("impl ").is_some_and(|name| types.contains(name) && !named.contains(name))
+        {
+            continue;
+        }
         let missing = words_of_types(line).filter(|word| types.contains(*word) && !named.contains(word));
         unnamed.extend(missing.map(|word| format!("{word}: {}: {}", export.name, line.trim())));
     }

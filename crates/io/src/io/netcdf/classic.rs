@@ -1,9 +1,9 @@
 //! The header and the samples of files in the classic forms: CDF-1, CDF-2 with 64-bit offsets, and CDF-5 with
 //! 64-bit lengths.
 //!
-//! The crate `netcdf-reader` reads these forms, too. But version 0.12 refuses files with an attribute that goes
-//! beyond their first 64 KiB, with a name that is not UTF-8, or cut off within a later record than those that
-//! are wanted; and it reads all of a file into memory where a count in the header is damaged.
+//! The crate `netcdf-reader` reads these forms, too. But version 0.12 refuses files with an attribute that
+//! goes beyond their first 64 KiB, with a name that is not UTF-8, or cut off within a later record than those
+//! that are wanted; and it reads all of a file into memory where a count in the header is damaged.
 
 use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 
