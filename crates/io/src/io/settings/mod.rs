@@ -22,4 +22,6 @@ pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
     SavedSettings, SavedTreatment,
 };
-pub use words::{SavedBoundaryType, SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks};
+pub use words::{
+    SavedBoundaryType, SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks, word_of,
+};

@@ -8,6 +8,13 @@ use meshbrush_core::domain::{BoundaryMarks, BoundaryType};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_mesh::text::LengthUnit;
 
+/// Returns the word that a text has for one of several choices, such as `"vertex"` for a rule; empty for a
+/// value that is no word.
+pub fn word_of(choice: &impl Serialize) -> String {
+    let word = serde_json::to_value(choice).ok();
+    word.as_ref().and_then(|word| word.as_str()).unwrap_or_default().to_owned()
+}
+
 /// The units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SavedUnit {
