@@ -5,9 +5,9 @@ use std::sync::{Arc, OnceLock};
 
 use meshbrush_cli::cli::build::FinishedMesh;
 use meshbrush_cli::cli::details::{DetailUses, MeshDetails, provenance_from};
-use meshbrush_cli::cli::earth_args::OutputCoordinates;
 use meshbrush_cli::cli::failure::Failure;
 use meshbrush_cli::cli::output::Output;
+use meshbrush_cli::cli::output_coordinates::OutputCoordinates;
 use meshbrush_cli::cli::requested_files::{ExportedMesh, RequestedFiles};
 use meshbrush_cli::cli::summary::Summary;
 use meshbrush_core::earth::Coordinates;

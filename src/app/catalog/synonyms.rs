@@ -1,5 +1,12 @@
 //! Other words by which commands are found: those of other programs, and those of what a command acts on.
 
+use std::sync::LazyLock;
+
+use meshbrush_render::render::export::ExportFormat;
+
+/// A command that is found by its formats, too.
+const EXPORT_MESH: &str = "Export mesh…";
+
 /// The beginning of a title, and other words for it.
 static SYNONYMS: [(&str, &str); 49] = [
     ("New…", "create empty blank document start page"),
@@ -19,11 +26,7 @@ static SYNONYMS: [(&str, &str); 49] = [
     ),
     ("Add outline to this document…", "coast polygon geojson import boundary"),
     ("Save as recipe…", "toml export script"),
-    (
-        "Export mesh…",
-        "save write vtu msh node 2dm csv obj stl ply glb gltf svg png sms gmsh paraview drawing picture 14 grd gr3 ll nc slf mesh msh2 \
-         dat adcirc fort schism hgrid delft ugrid netcdf telemac selafin mike wavewatch fvcom coast solver",
-    ),
+    (EXPORT_MESH, "save write drawing picture coast solver hgrid"),
     ("Export path…", "save write route geojson csv svg png line"),
     ("Export as test…", "record session replay"),
     ("Undo", "back revert"),
@@ -65,6 +68,21 @@ static SYNONYMS: [(&str, &str); 49] = [
 
 /// Returns other words for a command by its title.
 pub fn words_of(title: &str) -> &'static str {
+    static OF_EXPORT: LazyLock<String> = LazyLock::new(|| {
+        let formats = ExportFormat::all().flat_map(|format| names_in(format.purpose()));
+        let formats = ExportFormat::names().chain(ExportFormat::endings()).chain(formats);
+        formats.fold(other_words(EXPORT_MESH).to_owned(), |words, name| words + " " + name)
+    });
+    if title.starts_with(EXPORT_MESH) { &OF_EXPORT } else { other_words(title) }
+}
+
+/// Returns the names of programs and formats in a sentence: the words with a capital.
+fn names_in(sentence: &str) -> impl Iterator<Item = &str> {
+    let words = sentence.split(|letter: char| !letter.is_alphanumeric());
+    words.filter(|word| word.len() > 1 && word.contains(char::is_uppercase))
+}
+
+fn other_words(title: &str) -> &'static str {
     SYNONYMS.iter().find(|(start, _)| title.starts_with(start)).map_or("", |(_, words)| words)
 }
 

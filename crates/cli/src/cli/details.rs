@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::earth_args::OutputCoordinates;
 use super::input::Input;
+use super::output_coordinates::OutputCoordinates;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{CourantFit, DepthFit, Layer, NoDepth, NodeDepths, StraitCount, Straits};

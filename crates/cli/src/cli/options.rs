@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::args::{BoundaryArgument, InputArguments};
-use super::earth_args::EarthArguments;
+use super::args::{BoundaryArgument, EarthArguments, InputArguments};
 use super::failure::Failure;
 use super::lengths::LengthWithUnit;
 use meshbrush_core::field::Formula;

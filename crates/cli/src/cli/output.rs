@@ -4,9 +4,9 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::build::FinishedMesh;
 use super::failure::Failure;
-use super::picture_args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::space_look::RequestedSpace;
 use super::standard_output::StandardOutput;
 use meshbrush_io::io::settings::SavedOutput;

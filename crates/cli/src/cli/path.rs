@@ -8,15 +8,15 @@ use std::time::Instant;
 use glam::DVec2;
 use serde::Serialize;
 
+use super::args::PathArguments;
 use super::build::{FinishedMesh, build_from};
 use super::details::provenance;
-use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
 use super::lengths;
 use super::mesh::note_capped;
 use super::output::{RequestedLook, check_place};
-use super::path_args::PathArguments;
+use super::output_coordinates::OutputCoordinates;
 use super::path_proof::{About, Proof, task, write_certificate};
 use super::points::TypedPoint;
 use super::requested_files::NOT_ON_EARTH;

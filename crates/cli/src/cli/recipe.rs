@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use super::args::RecipeArguments;
 use super::failure::Failure;
-use super::more_args::RecipeArguments;
 use super::terminal::Terminal;
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::recipe::{self, RecipeFiles};

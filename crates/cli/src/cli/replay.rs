@@ -4,8 +4,8 @@ use std::io::Write;
 
 use serde::Serialize;
 
+use super::args::ReplayArguments;
 use super::failure::Failure;
-use super::more_args::ReplayArguments;
 use super::terminal::Terminal;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::recording::{self, Difference, Replayed};

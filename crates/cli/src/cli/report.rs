@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use super::args::ReportArguments;
 use super::failure::Failure;
-use super::more_args::ReportArguments;
 use super::run_clock::RunClock;
 use super::terminal::Terminal;
 use meshbrush_study::report::{Experiment, ExperimentMesh, ExperimentRun};

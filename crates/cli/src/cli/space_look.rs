@@ -1,7 +1,8 @@
 //! Pictures of the surface in space, before there is a mesh.
 
-use clap::{Args, ValueEnum};
+use clap::ValueEnum as _;
 
+use super::args::{PictureView, SpaceArguments};
 use super::build::FinishedMesh;
 use super::failure::Failure;
 use meshbrush_core::surface::HeightSource;
@@ -11,41 +12,6 @@ use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::Number;
 use meshbrush_render::render::export::SpaceLook;
 use meshbrush_render::scene::{Light, NodeHeights, SpaceCamera, ViewDirection};
-
-/// What a picture shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum PictureView {
-    /// The plan
-    Plan,
-    /// The surface in space
-    Space,
-}
-
-/// Pictures in space.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Pictures (.svg and .png)")]
-pub struct SpaceArguments {
-    /// What pictures show: the plan, or the mesh as a surface in space
-    ///
-    /// The heights are those of layers of surfaces, or else depths. Triangles without a height are left out.
-    /// Pictures in space are .png.
-    #[arg(long, value_name = "VIEW", value_enum, default_value = "plan")]
-    pub view: PictureView,
-
-    /// Direction in which one looks in space, in degrees clockwise from the y axis: 0 is northwards
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
-    pub azimuth: Option<f64>,
-
-    /// How high the viewer stands above the horizon, 5 to 90 degrees: 90 is from above
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
-    pub altitude: Option<f64>,
-
-    /// Factor for heights in space; without it relief has an eighth of the longer side of the domain
-    ///
-    /// In domains in kilometres or degrees, heights are metres: 1 is true there, too.
-    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
-    pub exaggeration: Option<f64>,
-}
 
 /// The view in space that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,14 +25,6 @@ struct BadNumber(&'static str, String);
 
 /// A number of a view in space without the view.
 const ONLY_IN_SPACE: &str = "this is for views in space";
-
-impl SpaceArguments {
-    /// Returns whether an option was given that is not the default.
-    pub fn differs_from_default(&self) -> bool {
-        let Self { view, azimuth, altitude, exaggeration } = self;
-        *view != PictureView::Plan || [azimuth, altitude, exaggeration].iter().any(|number| number.is_some())
-    }
-}
 
 impl RequestedSpace {
     /// Returns the view that the arguments describe; `None` for the plan.

@@ -9,11 +9,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use super::args::{Arguments, Command, MeshArguments};
+use super::args::{Arguments, Command, MeshArguments, ThumbnailArguments};
 use super::build::build;
 use super::failure::Failure;
 use super::input::Input;
-use super::more_args::ThumbnailArguments;
 use super::output::{check_place, failed};
 use super::requested_files::RequestedFiles;
 use super::terminal::Terminal;

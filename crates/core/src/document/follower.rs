@@ -94,7 +94,7 @@ impl Follower {
         let mut first = Rebuild::new(document.settings(), spec, Parts::default());
         while first.advance(document, usize::MAX)? == Progress::More {}
         Ok(Self {
-            shown: first.finish(document.paint()),
+            shown: Shown::rebuilt(first, document.paint()),
             state: FollowState::InStep,
             change: Some(MeshChange::Replaced),
             revision: 0,
@@ -386,7 +386,7 @@ impl Follower {
         match rebuild.advance(document, budget) {
             Ok(Progress::More) => return Ok(FollowState::Rebuilding(rebuild)),
             Ok(Progress::Done) => {
-                let former = std::mem::replace(&mut self.shown, rebuild.finish(document.paint()));
+                let former = std::mem::replace(&mut self.shown, Shown::rebuilt(*rebuild, document.paint()));
                 self.revision += 1;
                 self.change = Some(MeshChange::Replaced);
                 // Unless an export holds it, the next mesh of a drag is built in its memory.

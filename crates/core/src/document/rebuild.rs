@@ -1,10 +1,9 @@
 //! Another mesh, built beside the shown one.
 
 use super::change::Change;
-use super::shown::Shown;
 use super::{Document, Settings, Stage};
-use crate::build::{BuildError, BuildStage, MeshBuilder, MeshSpec, Parts};
-use crate::layers::{PaintChange, PaintLayers};
+use crate::build::{BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, Parts};
+use crate::layers::PaintChange;
 use crate::mesh::{Progress, TargetChange};
 
 /// Builds the mesh of a document, in slices.
@@ -72,8 +71,8 @@ impl Rebuild {
         }
     }
 
-    /// Once done: the mesh, to be shown.
-    pub(super) fn finish(self, paint: &PaintLayers) -> Shown {
-        Shown::new(self.settings, self.builder.finish(), &self.repainted, paint)
+    /// Once done: the mesh, its settings, and the areas in which the paint changed meanwhile.
+    pub(super) fn finish(self) -> (Settings, BuiltMesh, Vec<PaintChange>) {
+        (self.settings, self.builder.finish(), self.repainted)
     }
 }

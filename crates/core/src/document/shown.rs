@@ -92,6 +92,12 @@ fn concerns(areas: &[ChangedArea], mesh: &Mesh, corners: [LatticePoint; 3], leve
 }
 
 impl Shown {
+    /// Shows the mesh of a finished rebuild.
+    pub(super) fn rebuilt(rebuild: Rebuild, paint: &PaintLayers) -> Self {
+        let (settings, built, repainted) = rebuild.finish();
+        Self::new(settings, built, &repainted, paint)
+    }
+
     /// Creates a mesh that was just built. `repainted` was painted meanwhile.
     pub(super) fn new(
         settings: Settings,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::failure::Failure;
+use crate::cli::failure::Failure;
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_io::io::layers::{SavedKind, SavedLayer};
 use meshbrush_mesh::text::Length;

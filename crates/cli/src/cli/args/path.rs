@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::args::InputArguments;
-use super::earth_args::OutputCoordinates;
-use super::picture_args::PictureArguments;
+use super::input::InputArguments;
+use super::picture::PictureArguments;
+use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_mesh::text::Length;
 
 /// `meshbrush path`.

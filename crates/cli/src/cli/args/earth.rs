@@ -1,11 +1,8 @@
 //! Arguments on a region: what its coordinates are, in which plane it is meshed, and where it is open.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
-
-use meshbrush_core::earth::{Coordinates, CoordinatesTextError};
 
 /// What the coordinates of files are, the plane of the mesh, and its open boundary.
 #[derive(Debug, Args)]
@@ -59,35 +56,4 @@ pub struct EarthArguments {
     /// by a rectangle are open.
     #[arg(long, value_name = "FILE|depth>N|frame|W,S,E,N", allow_hyphen_values = true)]
     pub open: Vec<String>,
-}
-
-/// Coordinates in files.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum OutputCoordinates {
-    /// Degrees, where the domain lies on the Earth.
-    Lonlat,
-    /// World units.
-    Plane,
-    /// Those of a plane, in metres.
-    Other(Coordinates),
-}
-
-impl FromStr for OutputCoordinates {
-    type Err = CoordinatesTextError;
-
-    fn from_str(text: &str) -> Result<Self, CoordinatesTextError> {
-        if text == "plane" {
-            return Ok(Self::Plane);
-        }
-        Ok(text.parse::<Coordinates>()?.into())
-    }
-}
-
-impl From<Coordinates> for OutputCoordinates {
-    fn from(coordinates: Coordinates) -> Self {
-        match coordinates {
-            Coordinates::Geographic => Self::Lonlat,
-            plane => Self::Other(plane),
-        }
-    }
 }

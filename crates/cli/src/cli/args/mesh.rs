@@ -1,0 +1,71 @@
+//! Arguments of `meshbrush mesh`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error_curve::ErrorCurveArguments;
+use super::help::{format_help, format_long_help, output_help, output_long_help};
+use super::input::InputArguments;
+use super::picture::PictureArguments;
+use super::space::SpaceArguments;
+use crate::cli::output_coordinates::OutputCoordinates;
+
+/// `meshbrush mesh`.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
+    #[arg(help = output_help(), long_help = output_long_help())]
+    pub output: Vec<PathBuf>,
+
+    #[arg(long, value_name = "FORMAT", help_heading = "Output")]
+    #[arg(help = format_help(), long_help = format_long_help())]
+    pub format: Option<String>,
+
+    /// Write .msh in its binary form, which is quicker to write and to read
+    ///
+    /// .vtu and .stl are always binary, and other formats are always text.
+    #[arg(long, help_heading = "Output")]
+    pub binary: bool,
+
+    /// Write z = 0 in place of the height of a surface, in .vtu, .msh, .obj, .stl, .ply, .glb and .2dm
+    ///
+    /// The heights stay as values at the nodes where the format has any.
+    #[arg(long, help_heading = "Output")]
+    pub flat: bool,
+
+    /// Coordinates in files of a region on the Earth: longitude and latitude (lonlat), those of the plane of
+    /// --projection (plane), or those of a code or of a projection as PROJ writes it [default: those of the
+    /// region's file]
+    #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
+    pub out_crs: Option<OutputCoordinates>,
+
+    /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
+    /// repeated
+    ///
+    /// As in `depth=20 - x`; without a name it is `quantity`. In .node the values are attributes in this
+    /// order, and the first is z in .2dm. The formats of coastal solvers take the quantity `depth` as the
+    /// depth, positive downwards.
+    #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
+    pub quantity: Vec<String>,
+
+    #[command(flatten)]
+    pub curve: ErrorCurveArguments,
+
+    /// Print the summary as one JSON object on standard output
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+
+    /// Check every invariant of the finished mesh, and print what is broken
+    #[arg(long, help_heading = "Output")]
+    pub checks: bool,
+
+    #[command(flatten)]
+    pub picture: PictureArguments,
+
+    #[command(flatten)]
+    pub space: SpaceArguments,
+}

@@ -1,0 +1,41 @@
+//! Arguments of the commands that ask about a mesh: `meshbrush locate` and `meshbrush why`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::input::InputArguments;
+
+/// `meshbrush locate`.
+#[derive(Debug, Args)]
+pub struct LocateArguments {
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// Table of points with the columns x and y, or lon and lat in degrees; - is standard input
+    #[arg(long, value_name = "FILE.csv", help_heading = "Points")]
+    pub points: PathBuf,
+
+    /// Table to write, instead of standard output
+    #[arg(short, long = "output", value_name = "OUT.csv", help_heading = "Points")]
+    pub output: Option<PathBuf>,
+
+    /// Interpolate this formula in x and y from the vertices, instead of the target diameter
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true, help_heading = "Points")]
+    pub quantity: Option<String>,
+}
+
+/// `meshbrush why`.
+#[derive(Debug, Args)]
+pub struct WhyArguments {
+    /// A point of the domain, in its coordinates, or as longitude and latitude, as in 24.5°,37.9°
+    #[arg(value_name = "X,Y", allow_hyphen_values = true)]
+    pub point: String,
+
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// Print the answer as one JSON object on standard output
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+}
