@@ -2,14 +2,11 @@
 
 use std::cell::OnceCell;
 
-use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
 use meshbrush_core::domain::DomainOnLattice;
 use meshbrush_core::layers::SizeField;
 use meshbrush_core::outline::DerivedMesh;
-use meshbrush_mesh::mesh::{
-    Cleaning, CoarseError, Extract, Limits, MemoryLimit, Mesh, PatchedLocator, Progress,
-};
+use meshbrush_mesh::mesh::{Cleaning, CoarseError, Extract, Mesh, PatchedLocator};
 use meshbrush_mesh::text::Grouped;
 use wasm_bindgen::prelude::*;
 

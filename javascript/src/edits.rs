@@ -2,9 +2,7 @@
 
 use js_sys::Array;
 use meshbrush_core::document::{Document, Setting};
-use meshbrush_core::layers::{
-    DistanceLayer, DistanceTo, FeatureSize, Layer, LayerKind, Straits, Surface, Threats,
-};
+use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
 use wasm_bindgen::prelude::*;
 
 use crate::document::Core;
