@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
-    Layer, PaintLayers, RasterLayer, RasterReading, RasterSource, SettledSquares, SizeField, SizeFieldSpec,
+    Layer, LevelCache, PaintLayers, RasterLayer, RasterReading, RasterSource, SizeField, SizeFieldSpec,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{LatticePoint, Rect};
@@ -48,12 +48,12 @@ fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
 
 /// Returns the area rule.
 pub fn rule(field: &SizeField) -> impl SharedRule<Error = Infallible> {
-    || Answers { field, squares: SettledSquares::default() }
+    || Answers { field, squares: LevelCache::default() }
 }
 
 struct Answers<'a> {
     field: &'a SizeField,
-    squares: SettledSquares,
+    squares: LevelCache,
 }
 
 impl RuleAnswers for Answers<'_> {

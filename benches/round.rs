@@ -19,8 +19,8 @@ use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, corners};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
-    Layer, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, ShapeList,
-    Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    Layer, LayerKind, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer, RasterReading,
+    RasterSource, ShapeList, Shapes, Straits, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -175,11 +175,11 @@ fn kind_of(name: &str, sliders: &mut Sliders) -> LayerKind {
         }
         "straits" => {
             let across = (4.0 * sliders.factor).max(1.0);
-            Straits { across, found: StraitDiscs::unknown([0.05, 0.5]) }.into()
+            Straits { across, found: MedialBalls::unknown([0.05, 0.5]) }.into()
         }
         _ => {
             let across = (2.0 * sliders.factor).max(1.0);
-            FeatureSize { across, found: WaterMiddle::unknown([0.05, 1.0]) }.into()
+            FeatureSize { across, found: MedialAxis::unknown([0.05, 1.0]) }.into()
         }
     }
 }

@@ -8,9 +8,9 @@ use meshbrush_core::domain::{BoundaryType, PieceChoice};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
-    Layer, LayerId, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, Shapes,
-    StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats,
-    ValueCurve, WaterMiddle,
+    Layer, LayerId, LayerKind, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer,
+    RasterReading, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw,
+    Threats, ValueCurve,
 };
 use meshbrush_core::raster::RasterValues;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
@@ -112,11 +112,11 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
         }
         "straits" => {
             let (across, between) = across_widths(table)?;
-            LayerKind::Straits(Straits { across, found: StraitDiscs::unknown(between) })
+            LayerKind::Straits(Straits { across, found: MedialBalls::unknown(between) })
         }
         "featureSize" => {
             let (across, between) = across_widths(table)?;
-            LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown(between) })
+            LayerKind::FeatureSize(FeatureSize { across, found: MedialAxis::unknown(between) })
         }
         _ => LayerKind::paint(table.word("quantity", &QUANTITIES)?.unwrap_or(Quantity::Diameter)),
     })

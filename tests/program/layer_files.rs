@@ -10,8 +10,8 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FormulaLayer, Layer,
-    LayerId, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, ShapeList,
-    Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve,
+    LayerId, LayerKind, Mask, MedialBalls, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource,
+    ShapeList, Shapes, Straits, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -92,7 +92,7 @@ fn kinds() -> Vec<LayerKind> {
             between: [0.2, 0.21],
             diameter: 0.04,
         }),
-        LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown([0.2, 1.0]) }),
+        LayerKind::Straits(Straits { across: 3.0, found: MedialBalls::unknown([0.2, 1.0]) }),
         LayerKind::Threats(threats(random, 3)),
         LayerKind::Threats(threats(random, 40)),
         distance(few, 0.5),

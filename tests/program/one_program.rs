@@ -12,9 +12,9 @@ use meshbrush_core::domain::{
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
-    Layer, LayerId, LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource,
-    ShapeList, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat,
-    ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    Layer, LayerId, LayerKind, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer,
+    RasterReading, RasterSource, ShapeList, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm,
+    SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -157,8 +157,8 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
         14 => {
             let (across, widths) = (between(random, 1.0, 5.0), [0.3, 1.5]);
             match random.bool() {
-                true => LayerKind::Straits(Straits { across, found: StraitDiscs::unknown(widths) }),
-                false => LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown(widths) }),
+                true => LayerKind::Straits(Straits { across, found: MedialBalls::unknown(widths) }),
+                false => LayerKind::FeatureSize(FeatureSize { across, found: MedialAxis::unknown(widths) }),
             }
         }
         _ => LayerKind::Distance(DistanceLayer { to: boundary_of(random), at_zero, slope, range }),

@@ -7,7 +7,7 @@ use glam::DVec2;
 use crate::build::RefinementCriterion;
 use crate::explain::asks_to_bisect;
 use crate::geometry::Rect;
-use crate::layers::{PaintLayers, SettledSquares, SizeField};
+use crate::layers::{LevelCache, PaintLayers, SizeField};
 use crate::mesh::{Limits, Mesh, TreeTriangle, TriangleId};
 use crate::raster::Raster;
 
@@ -59,7 +59,7 @@ impl<'a> PixelTriangles<'a> {
         id: TriangleId,
         field: &SizeField,
         paint: &PaintLayers,
-        squares: &mut SettledSquares,
+        squares: &mut LevelCache,
     ) -> f32 {
         let corners = self.mesh.corners(id);
         let diameter = field.edge_lengths().of(corners, self.mesh.triangle(id).level());
@@ -97,7 +97,7 @@ mod tests {
         let pixels = PixelTriangles::new(&built.mesh, Rect::UNIT, size);
         let criterion = RefinementCriterion::by_area(&built.domain, &built.field, PaintLayers::blank());
         let forced = |id| pixels.is_forced(id, &criterion, &limits);
-        let mut squares = SettledSquares::default();
+        let mut squares = LevelCache::default();
         let mut slack = |id| pixels.slack(id, &built.field, PaintLayers::blank(), &mut squares);
         let mut both = [0, 0];
         for (point, id) in pixels.iter() {
@@ -133,7 +133,7 @@ mod tests {
     fn the_slack_of_a_triangle_is_that_at_its_middle() {
         let built = fixture::built("0.05 + 0.4*x*y", RefinementRule::Vertex, Limits::default());
         let pixels = PixelTriangles::new(&built.mesh, Rect::UNIT, [20, 20]);
-        let mut squares = SettledSquares::default();
+        let mut squares = LevelCache::default();
         for (_, id) in pixels.iter() {
             let id = id.unwrap();
             let corners = built.mesh.world_corners(id);

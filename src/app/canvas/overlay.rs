@@ -7,7 +7,7 @@ use super::super::contours::pixels_over;
 use super::overlay_palette::OverlayPalette;
 use super::relief_colors::ReliefColors;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::layers::{DepthSurface, Layer, PaintLayers, SettledSquares, SizeField};
+use meshbrush_core::layers::{DepthSurface, Layer, LevelCache, PaintLayers, SizeField};
 use meshbrush_core::raster::Raster;
 use meshbrush_core::surface::SurfaceRule;
 use meshbrush_kit::kit::derivation::Derived;
@@ -183,7 +183,7 @@ fn colors_of(
                 })
             }
             (Some(triangles), ..) => {
-                let mut squares = SettledSquares::default();
+                let mut squares = LevelCache::default();
                 triangles.colors(goes_on, palette.neutral(), |id| {
                     palette.slack(triangles.slack(id, &field, &paint, &mut squares))
                 })

@@ -5,7 +5,7 @@ use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::GridError;
-use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SettledPool, SizeField};
+use crate::layers::{InvalidLayer, LayerCheck, LevelCachePool, PaintLayers, SizeField};
 use crate::mesh::{
     BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
 };
@@ -66,7 +66,7 @@ struct RuleRefinement {
 #[derive(Clone, Debug)]
 enum RefinerByRule {
     /// With what the rule has answered.
-    Area(BlockRefiner, SettledPool),
+    Area(BlockRefiner, LevelCachePool),
     /// The vertex rule is not monotone, so that blocks would not fit together.
     Vertex(Refiner, VertexRule),
 }
@@ -276,7 +276,7 @@ impl MeshBuilder {
         let MeshSpec { limits, rule, .. } = self.spec;
         let refiner = match rule {
             RefinementRule::Area => {
-                RefinerByRule::Area(BlockRefiner::new(&mesh, limits), SettledPool::default())
+                RefinerByRule::Area(BlockRefiner::new(&mesh, limits), LevelCachePool::default())
             }
             RefinementRule::Vertex => {
                 RefinerByRule::Vertex(Refiner::new(&mesh, limits), VertexRule::default())

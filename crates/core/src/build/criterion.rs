@@ -6,7 +6,7 @@ use glam::DVec2;
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
-use crate::layers::{Decision, LeastTarget, PaintLayers, SettledPool, SettledSquares, SizeField};
+use crate::layers::{Decision, LeastTarget, LevelCache, LevelCachePool, PaintLayers, SizeField};
 use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule};
 use crate::surface::{SurfaceDemand, SurfaceNodes, SurfaceRule};
 
@@ -24,7 +24,7 @@ pub struct RefinementCriterion<'a> {
     surface: Option<(&'a SurfaceRule, SurfaceNodes)>,
     vertex_rule: VertexRule,
     /// The field's answers by the area rule so far.
-    squares: Option<SettledSquares>,
+    squares: Option<LevelCache>,
 }
 
 impl<'a> RefinementCriterion<'a> {
@@ -87,14 +87,14 @@ impl<'a> RefinementCriterion<'a> {
     /// Returns the area rule in a form that several threads can share.
     pub fn shared(&self) -> impl SharedRule<Error = Infallible> {
         let questions_per_thread = self.field.questions_per_thread();
-        SharedArea { criterion: self, known: SettledPool::default(), questions_per_thread }
+        SharedArea { criterion: self, known: LevelCachePool::default(), questions_per_thread }
     }
 
     /// Returns the area rule as [`Self::shared`] does. `known` keeps what the threads find out: it must have
     /// been used for this field and these pixels only. `questions_per_thread` questions are worth a thread.
     pub(crate) fn shared_with<'b>(
         &'b self,
-        known: &'b SettledPool,
+        known: &'b LevelCachePool,
         questions_per_thread: usize,
     ) -> impl SharedRule<Error = Infallible> {
         SharedArea { criterion: self, known, questions_per_thread }
@@ -181,7 +181,7 @@ struct SharedArea<'a, K> {
     questions_per_thread: usize,
 }
 
-impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
+impl<K: Borrow<LevelCachePool> + Sync> SharedRule for SharedArea<'_, K> {
     type Error = Infallible;
 
     fn answers(&self) -> impl RuleAnswers<Error = Infallible> {
@@ -197,9 +197,9 @@ impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
 /// The answers of the area rule for one thread.
 struct AreaAnswers<'a> {
     criterion: &'a RefinementCriterion<'a>,
-    known: &'a SettledPool,
+    known: &'a LevelCachePool,
     /// Some until it is put back.
-    squares: Option<SettledSquares>,
+    squares: Option<LevelCache>,
 }
 
 impl Drop for AreaAnswers<'_> {

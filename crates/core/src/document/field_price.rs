@@ -5,7 +5,7 @@ use super::pricer::{Price, price_of};
 use super::{Document, Follower, Settings};
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
-use crate::layers::{SettledPool, SizeField};
+use crate::layers::{LevelCachePool, SizeField};
 use crate::mesh::{Census, Forecast, Mesh, Progress};
 
 /// Counts in slices how another size field on the lattice of a mesh would change the number of triangles, in
@@ -14,7 +14,7 @@ use crate::mesh::{Census, Forecast, Mesh, Progress};
 pub(super) struct FieldPrice {
     field: Arc<SizeField>,
     /// What the field has answered.
-    known: SettledPool,
+    known: LevelCachePool,
     forecast: Forecast,
 }
 
@@ -24,7 +24,7 @@ impl FieldPrice {
     pub(super) fn new(field: Arc<SizeField>, area: &Rect, follower: &Follower) -> Option<Self> {
         let area = follower.field().lattice().rect_around(area)?;
         let forecast = Forecast::new(area, &follower.settings().limits());
-        Some(Self { field, known: SettledPool::default(), forecast })
+        Some(Self { field, known: LevelCachePool::default(), forecast })
     }
 
     /// Looks at up to `visits` more triangles. Returns the price once it is known.

@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, Weak};
 
-use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SizeField};
+use crate::layers::{LayerId, LevelCachePool, PaintChange, PaintLayers, SizeField};
 use crate::mesh::{ChangedArea, TargetChange};
 
 /// The changes since the shown mesh was up to date, and the answers of the fields that decide about them.
@@ -15,7 +15,7 @@ pub(super) struct Pending {
     /// [`SizeField::of_layers_alone`] of the layers that asked for less the last time.
     alone: Option<Alone>,
     /// What the field of all layers has answered.
-    known: SettledPool,
+    known: LevelCachePool,
 }
 
 /// A field of some layers of another one.
@@ -25,7 +25,7 @@ struct Alone {
     /// Not kept longer than its document.
     whole: Weak<SizeField>,
     field: SizeField,
-    known: SettledPool,
+    known: LevelCachePool,
 }
 
 impl Pending {
@@ -54,7 +54,7 @@ impl Pending {
         layers: Option<Vec<LayerId>>,
         field: &Arc<SizeField>,
     ) {
-        (self.alone, self.known) = (None, SettledPool::default());
+        (self.alone, self.known) = (None, LevelCachePool::default());
         self.finer(was_in_step, layers, field);
     }
 
@@ -76,7 +76,7 @@ impl Pending {
         if !self.alone.as_ref().is_some_and(is_known) {
             let field = whole.of_layers_alone(&layers);
             let (whole, layers) = (Arc::downgrade(whole), layers.clone());
-            self.alone = field.map(|field| Alone { layers, whole, field, known: SettledPool::default() });
+            self.alone = field.map(|field| Alone { layers, whole, field, known: LevelCachePool::default() });
         }
         self.finer = self.alone.is_some().then_some(layers);
     }
@@ -97,7 +97,7 @@ impl Pending {
 
     /// Returns the field that says which triangles of the shown mesh exceed their targets, and what it has
     /// answered; `whole` is the field of all layers.
-    pub(super) fn field<'a>(&'a self, whole: &'a SizeField) -> (&'a SizeField, &'a SettledPool) {
+    pub(super) fn field<'a>(&'a self, whole: &'a SizeField) -> (&'a SizeField, &'a LevelCachePool) {
         match (&self.finer, &self.alone) {
             (Some(_), Some(Alone { field, known, .. })) => (field, known),
             _ => (whole, &self.known),

@@ -1,13 +1,13 @@
 //! The areas of the lattice in which the mesh must be checked again after an edit.
 
 use super::difference::Circumstances;
-use super::engine::asked::Share;
+use super::engine::asked::Ternary;
 use super::engine::cells::Cells;
 use super::engine::counting::Counting;
 use super::extent::joined;
 use super::paint_reach::RepaintedField;
 use super::reach::Reach;
-use super::{Combine, Layer, LayerId, PaintLayers, Quantity, SettledSquares, SizeField};
+use super::{Combine, Layer, LayerId, LevelCache, PaintLayers, Quantity, SizeField};
 use crate::geometry::{LatticeRect, Rect};
 use crate::mesh::{ChangedArea, Falloff, TargetChange};
 use crate::raster::ValueRange;
@@ -136,7 +136,7 @@ impl SizeField {
     /// now; `squares` must have been used for this field and these pixels only.
     pub fn changes_by_paint(
         &self,
-        squares: &mut SettledSquares,
+        squares: &mut LevelCache,
         painted: &[PaintChange],
         paint: &PaintLayers,
     ) -> Vec<ChangedArea> {
@@ -189,9 +189,9 @@ impl SizeField {
         };
         let mut parts = Vec::new();
         let above = |cells: &Cells| match self.stack.diameters(paint, cells, others).0 {
-            [_, greatest] if greatest <= diameter => Share::None,
-            [least, _] if least > diameter => Share::All,
-            _ => Share::Some,
+            [_, greatest] if greatest <= diameter => Ternary::Never,
+            [least, _] if least > diameter => Ternary::Always,
+            _ => Ternary::Maybe,
         };
         cells.add_parts(DEEPEST, &above, &mut parts);
         parts

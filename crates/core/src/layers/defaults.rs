@@ -4,9 +4,9 @@ use crate::layers::{BandLayer, DistanceLayer, RasterLayer};
 use std::sync::Arc;
 
 use super::{
-    DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, FineAt, LayerKind, PositiveDepth, RasterReading,
-    RasterSource, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, ValueCurve,
-    WaterMiddle,
+    DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, FineAt, LayerKind, MedialAxis, MedialBalls,
+    PositiveDepth, RasterReading, RasterSource, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm,
+    SurfaceSource, ValueCurve,
 };
 use crate::field::{Formula, Transfer};
 use crate::geometry::Rect;
@@ -82,7 +82,7 @@ impl LayerKind {
     pub fn straits(transfer: &Transfer) -> Self {
         const ACROSS: f64 = 4.0;
         let between = [transfer.h_min, transfer.h_max].map(|diameter| ACROSS * diameter);
-        Self::Straits(Straits { across: ACROSS, found: StraitDiscs::unknown(between) })
+        Self::Straits(Straits { across: ACROSS, found: MedialBalls::unknown(between) })
     }
 
     /// Returns three triangles across the water, whose middle is not looked for yet: where it is as wide as
@@ -90,7 +90,7 @@ impl LayerKind {
     pub fn feature_size(transfer: &Transfer) -> Self {
         const ACROSS: f64 = 3.0;
         let between = [transfer.h_min, transfer.h_max].map(|diameter| ACROSS * diameter);
-        Self::FeatureSize(FeatureSize { across: ACROSS, found: WaterMiddle::unknown(between) })
+        Self::FeatureSize(FeatureSize { across: ACROSS, found: MedialAxis::unknown(between) })
     }
 
     /// `h_min` at distance 0, growing by `slope` per unit of length without an end.

@@ -11,7 +11,7 @@
 //!   ── ─ ─ ─ ─┼─ ─ ─ ─ ─ ─ middle
 //! ```
 //!
-//! The medial axis is that of straits ([`StraitDiscs`]): the centres of discs that touch two coasts, or two
+//! The medial axis is that of straits ([`MedialBalls`]): the centres of discs that touch two coasts, or two
 //! parts of one that are far apart along it. So a corner of a coast or a shallow bay has no branch, unlike
 //! the medial axis of a raster of distances, which has one for each bend of the shore. Points of the medial
 //! axis are at most an eighth of the radius from the nearest centre; that much is subtracted from the
@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Shapes, StraitDisc, StraitDiscs};
+use super::{MedialBall, MedialBalls, Shapes};
 use crate::domain::{BoundaryMarks, Domain};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, Rect};
@@ -38,7 +38,7 @@ pub struct FeatureSize {
     /// Triangles across a channel.
     pub across: f64,
     /// The shores and the middle of the water. In a document they are those of its domain.
-    pub found: WaterMiddle,
+    pub found: MedialAxis,
 }
 
 impl FeatureSize {
@@ -74,7 +74,7 @@ impl FeatureSize {
     pub fn for_domain(&self, domain: &Domain, marks: &BoundaryMarks) -> Self {
         let found = match self.found.0.discs.is_of(domain, marks) {
             true => self.found.clone(),
-            false => WaterMiddle::of(domain, marks, self.found.between()),
+            false => MedialAxis::of(domain, marks, self.found.between()),
         };
         Self { found, ..*self }
     }
@@ -82,32 +82,32 @@ impl FeatureSize {
 
 /// The shores of a domain and the medial axis of its water, with an index. Clones share the data.
 #[derive(Clone, Debug)]
-pub struct WaterMiddle(Arc<IndexedFeatureSize>);
+pub struct MedialAxis(Arc<IndexedFeatureSize>);
 
 #[derive(Debug)]
 struct IndexedFeatureSize {
-    discs: StraitDiscs,
+    discs: MedialBalls,
     shores: Option<Shapes>,
     /// The discs around the centres in which the distance to the middle is 0.
     tree: BoxTree,
 }
 
-impl PartialEq for WaterMiddle {
+impl PartialEq for MedialAxis {
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (&*self.0, &*other.0);
         Arc::ptr_eq(&self.0, &other.0) || (a.discs == b.discs && a.shores == b.shores)
     }
 }
 
-impl WaterMiddle {
+impl MedialAxis {
     /// Finds the middle of water that is between the first and the second length wide, in world units, or in
     /// metres on the Earth. That of wider water is left out: where 2 W is greater, it can be too large. None
     /// in a domain without coasts.
     pub fn of(domain: &Domain, marks: &BoundaryMarks, between: [f64; 2]) -> Self {
-        Self::new(StraitDiscs::of(domain, marks, between), Shapes::coasts(domain, marks).ok())
+        Self::new(MedialBalls::of(domain, marks, between), Shapes::coasts(domain, marks).ok())
     }
 
-    fn new(discs: StraitDiscs, shores: Option<Shapes>) -> Self {
+    fn new(discs: MedialBalls, shores: Option<Shapes>) -> Self {
         let boxes: Vec<Rect> =
             discs.discs().iter().map(|disc| Rect::around(disc.center, rim(disc))).collect();
         Self(Arc::new(IndexedFeatureSize { discs, shores, tree: BoxTree::new(&boxes) }))
@@ -115,7 +115,7 @@ impl WaterMiddle {
 
     /// Returns a medial axis that was not searched for yet: it is empty.
     pub fn unknown(between: [f64; 2]) -> Self {
-        Self::new(StraitDiscs::unknown(between), None)
+        Self::new(MedialBalls::unknown(between), None)
     }
 
     /// Returns the minimum and the maximum width that are searched for, in world units, or in metres on the
@@ -125,7 +125,7 @@ impl WaterMiddle {
     }
 
     /// Returns discs that touch two coasts, the narrowest first: the middle is that of their centres.
-    pub fn discs(&self) -> &[StraitDisc] {
+    pub fn discs(&self) -> &[MedialBall] {
         self.0.discs.discs()
     }
 
@@ -175,7 +175,7 @@ impl WaterMiddle {
 }
 
 /// Returns the radius around the centre of a disc within which the distance to the middle is 0.
-fn rim(disc: &StraitDisc) -> f64 {
+fn rim(disc: &MedialBall) -> f64 {
     0.5 * MIDDLE * disc.width
 }
 
@@ -213,7 +213,7 @@ mod tests {
     fn a_channel_is_half_as_wide_everywhere_as_its_width() {
         let rings = vec![ring(DVec2::ZERO, 400, |_| 10.0), ring(DVec2::ZERO, 400, |_| 8.0)];
         let channel = Domain::of_polygons(&[rings]).unwrap();
-        let found = WaterMiddle::of(&channel, &BoundaryMarks::default(), [0.5, 5.0]);
+        let found = MedialAxis::of(&channel, &BoundaryMarks::default(), [0.5, 5.0]);
         let mut random = fastrand::Rng::with_seed(3);
         for _ in 0..2000 {
             let at = (8.0 + 2.0 * random.f64()) * DVec2::from_angle(TAU * random.f64());
@@ -222,10 +222,10 @@ mod tests {
         }
         // Away from the shores it grows with the way: twice as fast on land, and as fast from the middle.
         assert!((found.half_width_at(DVec2::ZERO) - 17.0).abs() < 0.2);
-        let none = WaterMiddle::of(&channel, &BoundaryMarks::default(), [0.5, 1.5]);
+        let none = MedialAxis::of(&channel, &BoundaryMarks::default(), [0.5, 1.5]);
         assert_eq!(none.half_width_at(dvec2(9.0, 0.0)), f64::INFINITY, "wider than what is looked for");
         let square = Domain::of_polygons(&[vec![ring(DVec2::ZERO, 4, |_| 3.0)]]).unwrap();
-        let square = WaterMiddle::of(&square, &BoundaryMarks::default(), [0.1, 100.0]);
+        let square = MedialAxis::of(&square, &BoundaryMarks::default(), [0.1, 100.0]);
         assert_eq!(square.half_width_at(DVec2::ZERO), f64::INFINITY, "right angles have no middle");
     }
 
@@ -241,7 +241,7 @@ mod tests {
             let mask = Mask::new(region.polygons()).unwrap();
             let size = FeatureSize {
                 across: 3.0,
-                found: WaterMiddle::of(&water, &BoundaryMarks::default(), [0.2, 8.0]),
+                found: MedialAxis::of(&water, &BoundaryMarks::default(), [0.2, 8.0]),
             };
             let edges: Vec<(usize, [DVec2; 2])> = region
                 .rings()
@@ -276,7 +276,7 @@ mod tests {
     fn bounds_hold_w_at_every_point_and_it_changes_by_at_most_twice_the_way() {
         let mut random = fastrand::Rng::with_seed(6);
         let water = water(&mut random).unwrap();
-        let found = WaterMiddle::of(&water, &BoundaryMarks::default(), [0.2, 8.0]);
+        let found = MedialAxis::of(&water, &BoundaryMarks::default(), [0.2, 8.0]);
         let size = FeatureSize { across: 3.0, found: found.clone() };
         let mut steepest = 0.0_f64;
         let shore: Vec<[DVec2; 2]> = water.region().unwrap().edges().collect();

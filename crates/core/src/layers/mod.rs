@@ -56,7 +56,7 @@ use depth_surface::{hidden_differently, hiding, surface_changes};
 pub(crate) use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};
 pub use engine::DiameterLimit;
-pub use feature_size::{FeatureSize, WaterMiddle};
+pub use feature_size::{FeatureSize, MedialAxis};
 pub use kinds::{
     BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerKind, LayerSource, PaintLayer, RasterLayer,
     RasterReading,
@@ -69,11 +69,11 @@ pub use node_depths::{DepthFit, NoDepth, NodeDepths};
 pub use paint_layers::PaintLayers;
 pub use raster_source::RasterSource;
 pub use risk::RiskField;
-pub use settled::{SettledPool, SettledSquares};
+pub use settled::{LevelCache, LevelCachePool};
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use strait_count::StraitCount;
 pub(crate) use strait_search::StraitSearch;
-pub use straits::{StraitDisc, StraitDiscs, Straits};
+pub use straits::{MedialBall, MedialBalls, Straits};
 pub use surface::{Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource};
 pub use targets::Decision;
 pub use targets_in_order::NODES_AT_A_TIME;

@@ -2,8 +2,8 @@ use glam::{DVec2, dvec2};
 
 use super::models::{MADE, ModelDomain};
 use super::{
-    Combine, Layer, LayerKind, Mask, PaintLayers, SettledSquares, SizeField, SizeFieldSpec, Threat,
-    ThreatLaw, Threats,
+    Combine, Layer, LayerKind, LevelCache, Mask, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw,
+    Threats,
 };
 use crate::field::{Formula, TaylorModel, Transfer};
 use crate::geometry::{Lattice, LatticePoint, Rect};
@@ -166,7 +166,7 @@ fn models_change_no_answer() {
         let h_max = [0.2, 0.025, 0.003125][run % 3];
         let with = field(layers, h_max, &lattice);
         let without = with.clone().without_models();
-        let (paint, mut squares) = (PaintLayers::blank(), SettledSquares::default());
+        let (paint, mut squares) = (PaintLayers::blank(), LevelCache::default());
         for _ in 0..60 {
             let (corners, level) = random_triangle(&mut random, &lattice);
             let asks = without.asks_for_more(paint, corners, level);
@@ -181,7 +181,7 @@ fn models_change_no_answer() {
 /// Asks about all triangles of a mesh from scratch with coarse cells of a quarter, and returns how many it
 /// has and how often a whole function was evaluated.
 fn leaves_and_evaluations(field: &SizeField, lattice: &Lattice) -> [usize; 2] {
-    let (paint, mut squares) = (PaintLayers::blank(), SettledSquares::default());
+    let (paint, mut squares) = (PaintLayers::blank(), LevelCache::default());
     let before = MADE.get();
     let mut leaves = 0;
     // From the two triangles of each cell down the bisection tree: [right angle, and the ends of the longest

@@ -17,7 +17,7 @@
 //!
 //! A rectangle around the core is divided, and the parts without such points are left out.
 
-use super::engine::asked::Share;
+use super::engine::asked::Ternary;
 use super::engine::cells::Cells;
 use super::engine::counting::Counting;
 use super::{PaintLayers, SizeField};
@@ -69,9 +69,9 @@ impl Reach<'_> {
     }
 
     /// Returns the share of some cells that an edit of a core can affect.
-    fn affected(&self, cells: &Cells, (core, least): (&Cells, f64)) -> Share {
+    fn affected(&self, cells: &Cells, (core, least): (&Cells, f64)) -> Ternary {
         let distance = distance_between(cells, core, self.lattice());
-        Share::of(distance <= self.farthest(least, self.bounds(cells)[1])).masked()
+        Ternary::of(distance <= self.farthest(least, self.bounds(cells)[1])).masked()
     }
 
     /// Returns the least and the greatest diameter before gradation in some cells, in world units.

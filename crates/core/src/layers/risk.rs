@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::engine::asked::Share;
+use super::engine::asked::Ternary;
 use super::risk_pixels::{RiskWithGaps, range_within};
 use super::{Combine, Coverage, Layer, Mask, PaintLayers, Threats};
 use crate::field::{Bounds, Formula};
@@ -48,7 +48,7 @@ pub enum RiskSource {
 pub(super) struct Risks {
     pub least: f64,
     pub greatest: f64,
-    present: Share,
+    present: Ternary,
 }
 
 /// The width of the rim of a domain, as a share of its longer side. It is wider than
@@ -127,9 +127,9 @@ impl RiskField {
 impl Risks {
     fn new(range: ValueRange, none: f32) -> Self {
         let present = match (range.least > none, range.greatest > none) {
-            (true, _) => Share::All,
-            (false, true) => Share::Some,
-            (false, false) => Share::None,
+            (true, _) => Ternary::Always,
+            (false, true) => Ternary::Maybe,
+            (false, false) => Ternary::Never,
         };
         let [least, greatest] = [range.least, range.greatest].map(|v| f64::from(v).clamp(0.0, 1.0));
         Self { least, greatest, present }
@@ -137,12 +137,12 @@ impl Risks {
 
     /// Returns whether the layer has a risk at every point.
     pub fn is_everywhere(&self) -> bool {
-        self.present == Share::All
+        self.present == Ternary::Always
     }
 
     /// Returns whether the layer has no risk at any point.
     pub fn is_nowhere(&self) -> bool {
-        self.present == Share::None
+        self.present == Ternary::Never
     }
 
     /// Returns the bounds of the result, from those of the layers below.
@@ -155,9 +155,9 @@ impl Risks {
             Combine::Replace => own,
         };
         match present {
-            Share::None => below,
-            Share::Some => below.union(result),
-            Share::All => result,
+            Ternary::Never => below,
+            Ternary::Maybe => below.union(result),
+            Ternary::Always => result,
         }
     }
 }
@@ -168,7 +168,7 @@ impl RiskSource {
         match self {
             Self::Paint(_) | Self::Raster(_) => {
                 let Risks { least, present, .. } = self.range(place, place);
-                (present == Share::All).then_some(least)
+                (present == Ternary::Always).then_some(least)
             }
             Self::Formula(formula) => {
                 let risk = formula.eval(point.x, point.y);
@@ -182,9 +182,9 @@ impl RiskSource {
     pub(super) fn range(&self, rectangle: &Rect, seen: &Rect) -> Risks {
         let of_bounds = |bounds: Bounds, none: f64| {
             let present = match (bounds.valid && bounds.least > none, bounds.greatest > none) {
-                (true, _) => Share::All,
-                (false, true) => Share::Some,
-                (false, false) => Share::None,
+                (true, _) => Ternary::Always,
+                (false, true) => Ternary::Maybe,
+                (false, false) => Ternary::Never,
             };
             let [least, greatest] = [bounds.least, bounds.greatest].map(|v| v.clamp(0.0, 1.0));
             Risks { least, greatest, present }

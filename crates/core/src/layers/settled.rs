@@ -30,7 +30,7 @@ use crate::mesh::LevelsWithin;
 ///
 /// The answers are those of one field and of paint that does not change.
 #[derive(Clone, Debug)]
-pub struct SettledSquares {
+pub struct LevelCache {
     /// The squares, at the index from a hash; a new square replaces another one there.
     squares: Vec<Settled>,
     /// The known parts for gradation.
@@ -62,13 +62,13 @@ impl Settled {
         Self { square: None, levels: LevelsWithin::UNKNOWN, least_asked: 0.0, sources: Vec::new() };
 }
 
-impl Default for SettledSquares {
+impl Default for LevelCache {
     fn default() -> Self {
         Self { squares: vec![Settled::EMPTY; 1 << KEPT_BITS], known: KnownParts::default() }
     }
 }
 
-impl SettledSquares {
+impl LevelCache {
     /// Forgets everything if a lot is known.
     pub(super) fn make_room(&mut self) {
         if self.known.make_room() {
@@ -80,31 +80,31 @@ impl SettledSquares {
 /// Caches for the threads that ask a size field at the same time. A thread takes one and puts it back, so
 /// that what was found out serves the next questions.
 #[derive(Debug, Default)]
-pub struct SettledPool(Mutex<Vec<SettledSquares>>);
+pub struct LevelCachePool(Mutex<Vec<LevelCache>>);
 
-impl SettledPool {
+impl LevelCachePool {
     /// Returns a cache, an empty one where all are in use.
-    pub(crate) fn take(&self) -> SettledSquares {
+    pub(crate) fn take(&self) -> LevelCache {
         self.squares().pop().unwrap_or_default()
     }
 
     /// Puts a cache back.
-    pub(crate) fn put_back(&self, squares: SettledSquares) {
+    pub(crate) fn put_back(&self, squares: LevelCache) {
         self.squares().push(squares);
     }
 
     /// Returns all caches, while no thread uses one.
-    pub(crate) fn all_mut(&mut self) -> &mut [SettledSquares] {
+    pub(crate) fn all_mut(&mut self) -> &mut [LevelCache] {
         self.0.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn squares(&self) -> MutexGuard<'_, Vec<SettledSquares>> {
+    fn squares(&self) -> MutexGuard<'_, Vec<LevelCache>> {
         // A thread that panicked left the list as it was.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Clone for SettledPool {
+impl Clone for LevelCachePool {
     fn clone(&self) -> Self {
         Self(Mutex::new(self.squares().clone()))
     }
@@ -123,7 +123,7 @@ impl SizeField {
 
     /// Lets squares that were used for this field forget what they know of places at which pixels have
     /// changed: `areas` are rectangles in world units.
-    pub(crate) fn forget(&self, squares: &mut SettledSquares, areas: impl Iterator<Item = Rect>) {
+    pub(crate) fn forget(&self, squares: &mut LevelCache, areas: impl Iterator<Item = Rect>) {
         squares.squares.iter_mut().for_each(|square| square.square = None);
         areas.filter_map(|area| self.core(&area)).for_each(|cells| squares.known.forget(&cells));
     }
@@ -133,7 +133,7 @@ impl SizeField {
     #[inline]
     pub fn asks_for_more_nearby(
         &self,
-        squares: &mut SettledSquares,
+        squares: &mut LevelCache,
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
         level: u32,
@@ -155,7 +155,7 @@ impl SizeField {
     #[inline]
     pub fn levels_within(
         &self,
-        squares: &mut SettledSquares,
+        squares: &mut LevelCache,
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
         level: u32,
@@ -178,7 +178,7 @@ impl SizeField {
     #[inline]
     fn levels_by_pixels(
         &self,
-        squares: &SettledSquares,
+        squares: &LevelCache,
         paint: &PaintLayers,
         (corners, level): ([LatticePoint; 3], u32),
         square: LatticeSquare,
@@ -205,7 +205,7 @@ impl SizeField {
     /// Returns the answer for a triangle in a square that has not settled it.
     fn asks_within(
         &self,
-        squares: &mut SettledSquares,
+        squares: &mut LevelCache,
         place: usize,
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
@@ -226,7 +226,7 @@ impl SizeField {
 
     /// Returns the place of what is known of all triangles in a square.
     #[inline]
-    fn settled(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: LatticeSquare) -> usize {
+    fn settled(&self, squares: &mut LevelCache, paint: &PaintLayers, square: LatticeSquare) -> usize {
         let place = place_of(square);
         if squares.squares[place].square != Some(square) {
             self.settle(squares, paint, square);
@@ -236,7 +236,7 @@ impl SizeField {
 
     /// Finds out about all triangles in a square.
     #[cold]
-    fn settle(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: LatticeSquare) {
+    fn settle(&self, squares: &mut LevelCache, paint: &PaintLayers, square: LatticeSquare) {
         squares.make_room();
         let found = match self.stack.slope() {
             None => self.settle_from(&[], &mut squares.known, paint, square),
@@ -247,7 +247,7 @@ impl SizeField {
                     self.settle_from(&[whole], &mut squares.known, paint, square)
                 } else {
                     let wider = self.settled(squares, paint, square.around(bits));
-                    let SettledSquares { squares, known } = squares;
+                    let LevelCache { squares, known } = squares;
                     self.settle_from(&squares[wider].sources, known, paint, square)
                 }
             }

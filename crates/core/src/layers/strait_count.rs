@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{StraitDisc, Straits};
+use super::{MedialBall, Straits};
 use crate::geometry::{BoxTree, Rect};
 use crate::mesh::MeshView;
 
@@ -16,14 +16,14 @@ const LEAST_SHARE: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StraitCount {
     /// The strait.
-    pub disc: StraitDisc,
+    pub disc: MedialBall,
     /// The number of triangles that the segment between its shores crosses.
     pub triangles: usize,
 }
 
 impl StraitCount {
     /// Counts the triangles of a mesh across a passage, if one is given, and then across each strait.
-    pub fn of(straits: &Straits, passage: Option<&StraitDisc>, mesh: MeshView) -> Vec<Self> {
+    pub fn of(straits: &Straits, passage: Option<&MedialBall>, mesh: MeshView) -> Vec<Self> {
         let lattice = mesh.lattice();
         let nodes: Vec<DVec2> =
             mesh.nodes().par_iter().map(|&node| lattice.world_from_lattice(node)).collect();
@@ -34,7 +34,7 @@ impl StraitCount {
         };
         let boxes: Vec<Rect> = (0..mesh.triangles().len()).into_par_iter().map(bounds).collect();
         let tree = BoxTree::new(&boxes);
-        let count = |disc: &StraitDisc| {
+        let count = |disc: &MedialBall| {
             let [from, to] = disc.shores;
             let mut triangles = 0;
             let _ = tree.visit_meeting(&Rect::spanning(from, to), |n| {

@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use super::straits::StraitDisc;
+use super::straits::MedialBall;
 use crate::domain::{BoundaryMarks, Coasts, Domain, corners};
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
@@ -42,14 +42,14 @@ const EMPTY: f64 = 1.0 - 1e-6;
 pub(super) fn narrowest_passage(
     domain: &Domain,
     marks: &BoundaryMarks,
-    discs: &[StraitDisc],
-) -> Option<StraitDisc> {
+    discs: &[MedialBall],
+) -> Option<MedialBall> {
     if discs.is_empty() {
         return None;
     }
     let water = Water::new(domain, marks);
     let mut seen = BTreeSet::new();
-    let mut narrowest: Option<StraitDisc> = None;
+    let mut narrowest: Option<MedialBall> = None;
     for disc in discs {
         if narrowest.is_some_and(|narrowest| disc.width > NEAR * narrowest.width) {
             break;
@@ -124,7 +124,7 @@ impl Water {
 
     /// Moves the ends of a crossing along their shores while they come nearer to each other. Returns the two
     /// edges that they come to, and the disc between them; nothing if they meet.
-    fn narrowed(&self, disc: &StraitDisc) -> Option<([u32; 2], StraitDisc)> {
+    fn narrowed(&self, disc: &MedialBall) -> Option<([u32; 2], MedialBall)> {
         let [from, to] = disc.shores;
         let (mut a, mut b) = (self.nearest_edge(from)?.0, self.nearest_edge(to)?.0);
         let mut shores = closest(self.ends(a), self.ends(b));
@@ -143,11 +143,11 @@ impl Water {
         let [from, to] = shores;
         let width = length(shores);
         let is_apart = width > SAME * disc.width;
-        is_apart.then_some(([a.min(b), a.max(b)], StraitDisc { center: from.midpoint(to), shores, width }))
+        is_apart.then_some(([a.min(b), a.max(b)], MedialBall { center: from.midpoint(to), shores, width }))
     }
 
     /// Returns whether no coast is within the disc between two shores, and the water on both sides is wider.
-    fn is_passage(&self, place: &StraitDisc) -> bool {
+    fn is_passage(&self, place: &MedialBall) -> bool {
         let half = 0.5 * place.width;
         let [from, to] = place.shores;
         let along = (to - from).perp().normalize_or_zero();
@@ -157,7 +157,7 @@ impl Water {
     }
 
     /// Follows the middle of the water. Returns whether it becomes wider, or goes on.
-    fn widens(&self, place: &StraitDisc, start: DVec2) -> bool {
+    fn widens(&self, place: &MedialBall, start: DVec2) -> bool {
         let half = 0.5 * place.width;
         let (mut at, mut heading) = (place.center, start);
         for _ in 0..MOST_STEPS {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::straits::{CENTERS, POINTS, StraitDisc, StraitDiscs};
+use super::straits::{CENTERS, MedialBall, MedialBalls, POINTS};
 use crate::domain::{BoundaryMarks, CoastEdge, Coasts, Domain, Region};
 use crate::geometry::{BoxTree, NumberMap, Rect, nearest_on_segment};
 use crate::mesh::Progress;
@@ -26,7 +26,7 @@ const NARROWEST: f64 = 1e-6;
 /// Points along an edge, at most.
 const MOST_POINTS: usize = 100_000;
 
-/// The work of [`StraitDiscs::of`], in slices.
+/// The work of [`MedialBalls::of`], in slices.
 #[derive(Debug)]
 pub(crate) struct StraitSearch {
     region: Option<Arc<Region>>,
@@ -35,7 +35,7 @@ pub(crate) struct StraitSearch {
     finder: Finder,
     /// The first edge of the coasts that was not looked at.
     next: usize,
-    found: Vec<StraitDisc>,
+    found: Vec<MedialBall>,
 }
 
 impl StraitSearch {
@@ -51,7 +51,7 @@ impl StraitSearch {
     pub(crate) fn advance(&mut self, edges: usize) -> Progress {
         let all = self.finder.coasts.edges.len();
         let end = self.next.saturating_add(edges).min(all);
-        let found: Vec<Vec<StraitDisc>> =
+        let found: Vec<Vec<MedialBall>> =
             (self.next..end).into_par_iter().map(|edge| self.finder.along(edge)).collect();
         self.found.extend(found.into_iter().flatten());
         self.next = end;
@@ -59,9 +59,9 @@ impl StraitSearch {
     }
 
     /// Returns the straits, once all edges were looked at.
-    pub(crate) fn finish(self) -> StraitDiscs {
+    pub(crate) fn finish(self) -> MedialBalls {
         let of = (self.region, self.marks);
-        StraitDiscs::new(of, thinned(self.found), self.between, self.finder.between)
+        MedialBalls::new(of, thinned(self.found), self.between, self.finder.between)
     }
 }
 
@@ -92,7 +92,7 @@ impl Finder {
     }
 
     /// Returns the discs that touch an edge, or the corner at its end.
-    fn along(&self, edge: usize) -> Vec<StraitDisc> {
+    fn along(&self, edge: usize) -> Vec<MedialBall> {
         let CoastEdge { ends: [from, to], ring, along, next } = self.coasts.edges[edge];
         let length = from.distance(to);
         let direction = (to - from) / length;
@@ -125,7 +125,7 @@ impl Finder {
 
     /// Returns the largest disc that touches the coast at a point and has no coast within it, if the two
     /// points that it touches are the ends of a crossing.
-    fn disc(&self, shore: Shore, normal: DVec2) -> Option<StraitDisc> {
+    fn disc(&self, shore: Shore, normal: DVec2) -> Option<MedialBall> {
         let mut radius = 0.5 * self.between[1];
         let mut other = None;
         for _ in 0..MOST_STEPS {
@@ -144,7 +144,7 @@ impl Finder {
         let other = other?;
         let center = shore.at + radius * normal;
         let is_strait = self.is_crossing(shore, other) && self.frame.contains(center);
-        is_strait.then_some(StraitDisc { center, shores: [shore.at, other.at], width: 2.0 * radius })
+        is_strait.then_some(MedialBall { center, shores: [shore.at, other.at], width: 2.0 * radius })
     }
 
     fn nearest(&self, point: DVec2) -> Option<(Shore, f64)> {
@@ -173,13 +173,13 @@ impl Finder {
 }
 
 /// Returns the discs, the narrowest first, without those whose centre is close to that of a narrower one.
-fn thinned(mut discs: Vec<StraitDisc>) -> Vec<StraitDisc> {
+fn thinned(mut discs: Vec<MedialBall>) -> Vec<MedialBall> {
     discs.sort_by(|a, b| {
         let by_place = || a.center.x.total_cmp(&b.center.x).then(a.center.y.total_cmp(&b.center.y));
         a.width.total_cmp(&b.width).then_with(by_place)
     });
     let mut grids: Vec<CenterGrid> = Vec::new();
-    let mut kept: Vec<StraitDisc> = Vec::new();
+    let mut kept: Vec<MedialBall> = Vec::new();
     for disc in discs {
         let is_length = disc.width > 0.0 && disc.width.is_finite();
         if !is_length || grids.iter().any(|grid| grid.has_near(disc.center)) {

@@ -38,7 +38,7 @@ const WIDTH: f64 = 1.0 - 0.75 * CENTERS;
 
 /// A place of a strait.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StraitDisc {
+pub struct MedialBall {
     /// The middle of the strait.
     pub center: DVec2,
     /// The points of both coasts that are nearest to the middle.
@@ -53,7 +53,7 @@ pub struct Straits {
     /// Triangles across a strait.
     pub across: f64,
     /// The straits. In a document they are those of its domain.
-    pub found: StraitDiscs,
+    pub found: MedialBalls,
 }
 
 impl Straits {
@@ -67,7 +67,7 @@ impl Straits {
     pub fn for_domain(&self, domain: &Domain, marks: &BoundaryMarks) -> Self {
         let found = match self.found.is_of(domain, marks) {
             true => self.found.clone(),
-            false => StraitDiscs::of(domain, marks, self.found.between()),
+            false => MedialBalls::of(domain, marks, self.found.between()),
         };
         Self { found, ..*self }
     }
@@ -75,7 +75,7 @@ impl Straits {
 
 /// The straits of a domain, with an index. Clones share the data.
 #[derive(Clone, Debug)]
-pub struct StraitDiscs(Arc<IndexedStraits>);
+pub struct MedialBalls(Arc<IndexedStraits>);
 
 #[derive(Debug)]
 struct IndexedStraits {
@@ -87,17 +87,17 @@ struct IndexedStraits {
     between: [f64; 2],
     /// The same as lengths in the plane.
     in_plane: [f64; 2],
-    discs: Vec<StraitDisc>,
+    discs: Vec<MedialBall>,
     /// The smallest rectangle with all middles.
     middles: Option<Rect>,
     tree: BoxTree,
     /// The least width in each group of the tree, by level.
     least: Vec<Vec<f64>>,
     /// The narrowest passage, once somebody has asked for it.
-    narrowest: OnceLock<Option<StraitDisc>>,
+    narrowest: OnceLock<Option<MedialBall>>,
 }
 
-impl PartialEq for StraitDiscs {
+impl PartialEq for MedialBalls {
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (&*self.0, &*other.0);
         Arc::ptr_eq(&self.0, &other.0)
@@ -105,7 +105,7 @@ impl PartialEq for StraitDiscs {
     }
 }
 
-impl StraitDiscs {
+impl MedialBalls {
     /// Finds the straits of a domain that are at most as wide as the second length, in world units, or in
     /// metres on the Earth. Those narrower than the first one count as that wide. None in a domain without
     /// coasts. Marks decide which parts of its boundary are coasts.
@@ -117,7 +117,7 @@ impl StraitDiscs {
 
     pub(super) fn new(
         (region, marks): (Option<Arc<Region>>, BoundaryMarks),
-        discs: Vec<StraitDisc>,
+        discs: Vec<MedialBall>,
         between: [f64; 2],
         in_plane: [f64; 2],
     ) -> Self {
@@ -157,13 +157,13 @@ impl StraitDiscs {
     }
 
     /// Returns the places of straits, the narrowest first. Places between them are covered by them.
-    pub fn discs(&self) -> &[StraitDisc] {
+    pub fn discs(&self) -> &[MedialBall] {
         &self.0.discs
     }
 
     /// Returns the narrowest passage between two shores of the domain that they were found for, with wider
     /// water on both sides; nothing if there is none. Corners and dead ends are no passages.
-    pub fn narrowest(&self, domain: &Domain) -> Option<StraitDisc> {
+    pub fn narrowest(&self, domain: &Domain) -> Option<MedialBall> {
         let IndexedStraits { marks, discs, narrowest, .. } = &*self.0;
         *narrowest.get_or_init(|| narrowest_passage(domain, marks, discs))
     }
@@ -268,7 +268,7 @@ impl StraitDiscs {
 
     /// Visits discs near a rectangle, with the widths that count, until all others are wider than `visit`
     /// returns.
-    fn visit(&self, rect: &Rect, mut visit: impl FnMut(&StraitDisc, f64) -> f64) {
+    fn visit(&self, rect: &Rect, mut visit: impl FnMut(&MedialBall, f64) -> f64) {
         let IndexedStraits { discs, tree, least, .. } = &*self.0;
         let counted = |width| self.counted(width);
         let limit = std::cell::Cell::new(f64::INFINITY);
@@ -287,7 +287,7 @@ impl StraitDiscs {
 }
 
 /// Returns how far from its centre a disc counts.
-fn reach(disc: &StraitDisc, between: [f64; 2]) -> f64 {
+fn reach(disc: &MedialBall, between: [f64; 2]) -> f64 {
     REACH * 0.5 * disc.width.max(POINTS * between[0])
 }
 
@@ -323,7 +323,7 @@ mod tests {
         let text = "+proj=merc +lat_ts=0 +ellps=WGS84 +units=m";
         let plain = Domain::rectangle(bounds);
         let on_earth = Domain { projection: Some(text.parse().unwrap()), ..plain.clone() };
-        let straits = |domain: &Domain, least: f64| StraitDiscs::of(domain, &NONE, [least, 5e3]);
+        let straits = |domain: &Domain, least: f64| MedialBalls::of(domain, &NONE, [least, 5e3]);
         let all = [straits(&plain, 1e3), straits(&plain, 2e3), straits(&on_earth, 1e3)];
         for (n, one) in all.iter().enumerate() {
             assert!(one.discs().is_empty());
@@ -335,7 +335,7 @@ mod tests {
     #[test]
     fn a_ring_of_water_is_as_wide_everywhere() {
         let water = domain(vec![ring(DVec2::ZERO, 400, |_| 10.0), ring(DVec2::ZERO, 400, |_| 8.0)]);
-        let straits = StraitDiscs::of(&water, &NONE, [0.5, 5.0]);
+        let straits = MedialBalls::of(&water, &NONE, [0.5, 5.0]);
         assert!(straits.discs().len() > 100, "{}", straits.discs().len());
         for disc in straits.discs() {
             assert!((disc.width - 2.0).abs() < 2e-2 && (disc.center.length() - 9.0).abs() < 2e-2, "{disc:?}");
@@ -350,12 +350,12 @@ mod tests {
         while search.advance(3) == Progress::More {}
         assert_eq!(search.finish(), straits, "found in slices");
         assert_eq!(
-            StraitDiscs::of(&water, &NONE, [0.5, 1.5]).discs().len(),
+            MedialBalls::of(&water, &NONE, [0.5, 1.5]).discs().len(),
             0,
             "wider than what is looked for"
         );
         assert_eq!(
-            StraitDiscs::of(&water, &NONE, [1.95, 5.0]).width_at(dvec2(9.0, 0.0)),
+            MedialBalls::of(&water, &NONE, [1.95, 5.0]).width_at(dvec2(9.0, 0.0)),
             1.95,
             "counts as the least"
         );
@@ -364,9 +364,9 @@ mod tests {
     #[test]
     fn a_convex_water_and_a_shallow_cove_have_no_straits() {
         let round = domain(vec![ring(DVec2::ZERO, 60, |_| 10.0)]);
-        assert!(StraitDiscs::of(&round, &NONE, [0.1, 100.0]).discs().is_empty());
+        assert!(MedialBalls::of(&round, &NONE, [0.1, 100.0]).discs().is_empty());
         let square = domain(vec![vec![dvec2(0.0, 0.0), dvec2(4.0, 0.0), dvec2(4.0, 3.0), dvec2(0.0, 3.0)]]);
-        assert!(StraitDiscs::of(&square, &NONE, [0.1, 100.0]).discs().is_empty());
+        assert!(MedialBalls::of(&square, &NONE, [0.1, 100.0]).discs().is_empty());
     }
 
     /// Crossings of random water: from many points of the coast to the nearest point of another ring.
@@ -387,7 +387,7 @@ mod tests {
             let rings: Vec<Ring> = std::iter::once(outer).chain(islands).collect();
             let Ok(water) = Domain::of_polygons(&[rings]) else { continue };
             let [narrowest, widest] = [0.2, 6.0];
-            let straits = StraitDiscs::of(&water, &NONE, [narrowest, widest]);
+            let straits = MedialBalls::of(&water, &NONE, [narrowest, widest]);
             let region = water.region().unwrap();
             let mask = Mask::new(region.polygons()).unwrap();
             let edges: Vec<[DVec2; 2]> = region.edges().collect();
@@ -421,14 +421,14 @@ mod tests {
         region.rings().any(|ring| ring.contains(&a) && ring.contains(&b))
     }
 
-    fn random_discs(random: &mut fastrand::Rng) -> StraitDiscs {
+    fn random_discs(random: &mut fastrand::Rng) -> MedialBalls {
         let discs = (0..60)
             .map(|_| {
                 let center = dvec2(random.f64(), random.f64());
-                StraitDisc { center, shores: [center; 2], width: 0.02 + 0.3 * random.f64() }
+                MedialBall { center, shores: [center; 2], width: 0.02 + 0.3 * random.f64() }
             })
             .collect();
-        StraitDiscs::new((None, NONE), discs, [0.05, 1.0], [0.05, 1.0])
+        MedialBalls::new((None, NONE), discs, [0.05, 1.0], [0.05, 1.0])
     }
 
     #[test]
@@ -441,14 +441,14 @@ mod tests {
             let point = 2.0 * dvec2(random.f64(), random.f64()) - 0.5;
             let slope = 0.05 + random.f64();
             let (least, from) = straits.carried_to(point, slope, f64::INFINITY, diameter).unwrap();
-            let of_disc = |disc: &StraitDisc| {
+            let of_disc = |disc: &MedialBall| {
                 let beyond = disc.center.distance(point) - REACH * 0.5 * disc.width;
                 diameter((WIDTH * disc.width).max(0.05)) + slope * beyond.max(0.0)
             };
             let by_all = straits.discs().iter().map(of_disc).fold(f64::INFINITY, f64::min);
             assert!((least - by_all).abs() < 1e-12, "{least} {by_all}");
             let rim =
-                |disc: &&StraitDisc| disc.center.distance(from) <= REACH * 0.5 * disc.width * (1.0 + 1e-12);
+                |disc: &&MedialBall| disc.center.distance(from) <= REACH * 0.5 * disc.width * (1.0 + 1e-12);
             let asked =
                 straits.discs().iter().filter(rim).map(|disc| diameter((WIDTH * disc.width).max(0.05)));
             let at_place = asked.fold(f64::INFINITY, f64::min) + slope * from.distance(point);

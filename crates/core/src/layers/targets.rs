@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::engine::gradation::Accuracy;
 use super::engine::{DiameterLimit, KnownParts, Ungraded, is_asked};
-use super::{LayerId, PaintLayers, SettledSquares, SizeField};
+use super::{LayerId, LevelCache, PaintLayers, SizeField};
 use crate::earth::LEVELS;
 use crate::field::RefinementRule;
 use crate::geometry::LatticePoint;
@@ -72,12 +72,7 @@ impl SizeField {
     /// Returns the decision of [`Self::decision_at`] fast enough for a pointer. With gradation, the diameter
     /// may exceed h̄ by 10⁻³ of it where an exact search would take too long. `squares` must have been used
     /// for this field and these pixels only.
-    pub fn quick_decision_at(
-        &self,
-        squares: &mut SettledSquares,
-        paint: &PaintLayers,
-        point: DVec2,
-    ) -> Decision {
+    pub fn quick_decision_at(&self, squares: &mut LevelCache, paint: &PaintLayers, point: DVec2) -> Decision {
         squares.make_room();
         self.decision(&mut squares.known, paint, point, Accuracy::Quick)
     }

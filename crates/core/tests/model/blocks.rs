@@ -6,8 +6,8 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Combine, Layer, LayerKind, PaintLayers, RasterLayer, RasterReading, RasterSource, SettledSquares,
-    SizeField, SizeFieldSpec,
+    Combine, Layer, LayerKind, LevelCache, PaintLayers, RasterLayer, RasterReading, RasterSource, SizeField,
+    SizeFieldSpec,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
@@ -142,7 +142,7 @@ fn what_is_settled_for_squares_is_what_each_triangle_is_told() {
         let spacing = [0.25, 1.0][(run % 2) as usize];
         let lattice = Lattice::covering(Rect::UNIT, spacing, 1_000_000).unwrap();
         let field = random_field(&mut random, &lattice);
-        let mut squares = SettledSquares::default();
+        let mut squares = LevelCache::default();
         let paint = PaintLayers::blank();
         let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
         let limits = Limits { max_triangles: 60_000, ..Limits::default() };
@@ -163,7 +163,7 @@ fn levels_within_a_triangle_are_those_of_the_triangles_inside() {
     for _ in seeds(8) {
         let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
         let (field, paint) = (random_field(&mut random, &lattice), PaintLayers::blank());
-        let mut squares = SettledSquares::default();
+        let mut squares = LevelCache::default();
         let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
         for _ in 0..400 {
             let id = TriangleId::from_index(random.usize(..mesh.raw_triangle_count()));

@@ -12,8 +12,8 @@ use meshbrush_core::build::{MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceLayer, DistanceTo, FormulaLayer, Layer, LayerId, LayerKind, PaintLayers, Quantity,
-    RasterLayer, RasterReading, RasterSource, SettledSquares, Shapes, SizeField, SizeFieldSpec,
+    Combine, DistanceLayer, DistanceTo, FormulaLayer, Layer, LayerId, LayerKind, LevelCache, PaintLayers,
+    Quantity, RasterLayer, RasterReading, RasterSource, Shapes, SizeField, SizeFieldSpec,
 };
 use meshbrush_core::raster::{
     PixelGrid, Raster, RasterPyramid, TILE, Tile, TilePlace, TiledRaster, ValueRanges,
@@ -320,7 +320,7 @@ fn h_at_a_point_is_that_of_the_definition() {
     for seed in 0..150 {
         let case = Case::random(seed, 0.02);
         let (field, definition) = (case.field(), case.definition());
-        let (mut random, mut squares) = (Rng::with_seed(seed + 1000), SettledSquares::default());
+        let (mut random, mut squares) = (Rng::with_seed(seed + 1000), LevelCache::default());
         for _ in 0..20 {
             // Between two grains: on no line.
             let odd =

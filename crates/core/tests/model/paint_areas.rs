@@ -3,7 +3,7 @@
 use glam::{DVec2, dvec2};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Layer, LayerKind, PaintChange, PaintLayers, Quantity, SettledSquares, SizeField, SizeFieldSpec,
+    Layer, LayerKind, LevelCache, PaintChange, PaintLayers, Quantity, SizeField, SizeFieldSpec,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Preview, Repaint, StrokePlan};
 use meshbrush_core::raster::{PixelGrid, TiledRaster};
@@ -30,7 +30,7 @@ fn areas_of_click(at: DVec2, target: f64, gradation: Option<f64>) -> Vec<Rect> {
         .iter()
         .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
         .collect();
-    let areas = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
+    let areas = field.changes_by_paint(&mut LevelCache::default(), &painted, &paint);
     let world = |corner| lattice.world_from_lattice(corner);
     areas.iter().map(|area| Rect::new(world(area.rect.min), world(area.rect.max))).collect()
 }

@@ -1,36 +1,36 @@
 //! Answers about all points of a rectangle at once.
 
-/// The share of the points of a rectangle at which a condition is true.
+/// Whether a condition is true at the points of a rectangle, in the three-valued logic of Kleene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Share {
+pub enum Ternary {
     /// The condition is true at no point.
-    None,
-    /// The condition is true at some points, or the share is unknown.
-    Some,
+    Never,
+    /// The condition is true at some points, or may be.
+    Maybe,
     /// The condition is true at every point.
-    All,
+    Always,
 }
 
-impl Share {
-    /// `None` or `All`.
+impl Ternary {
+    /// Returns `Always` where it holds, and else `Never`.
     #[inline]
     pub fn of(holds: bool) -> Self {
-        if holds { Self::All } else { Self::None }
+        if holds { Self::Always } else { Self::Never }
     }
 
     /// Returns the answer within a mask that covers some of the points.
     #[inline]
     pub fn masked(self) -> Self {
-        if self == Self::None { Self::None } else { Self::Some }
+        if self == Self::Never { Self::Never } else { Self::Maybe }
     }
 
     /// Returns the share of the points at which either condition is true.
     #[inline]
     pub fn or(self, other: Self) -> Self {
         match (self, other) {
-            (Self::All, _) | (_, Self::All) => Self::All,
-            (Self::None, Self::None) => Self::None,
-            _ => Self::Some,
+            (Self::Always, _) | (_, Self::Always) => Self::Always,
+            (Self::Never, Self::Never) => Self::Never,
+            _ => Self::Maybe,
         }
     }
 
@@ -38,9 +38,9 @@ impl Share {
     #[inline]
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
-            (Self::None, _) | (_, Self::None) => Self::None,
-            (Self::All, Self::All) => Self::All,
-            _ => Self::Some,
+            (Self::Never, _) | (_, Self::Never) => Self::Never,
+            (Self::Always, Self::Always) => Self::Always,
+            _ => Self::Maybe,
         }
     }
 
@@ -48,9 +48,9 @@ impl Share {
     #[inline]
     pub fn not(self) -> Self {
         match self {
-            Self::None => Self::All,
-            Self::Some => Self::Some,
-            Self::All => Self::None,
+            Self::Never => Self::Always,
+            Self::Maybe => Self::Maybe,
+            Self::Always => Self::Never,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::asked::Share;
+use super::asked::Ternary;
 use crate::geometry::{Lattice, LatticePoint, LatticeRect, Octagon, Rect};
 use crate::raster::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 
@@ -72,13 +72,13 @@ impl Cells {
 
     /// Divides the cells in quarters up to `depth` times, and adds the parts in which some cells matter;
     /// `share` returns the share of those that do. Returns whether it added the whole.
-    pub fn add_parts(&self, depth: u32, share: &impl Fn(&Self) -> Share, parts: &mut Vec<Self>) -> bool {
+    pub fn add_parts(&self, depth: u32, share: &impl Fn(&Self) -> Ternary, parts: &mut Vec<Self>) -> bool {
         let middle = [0, 1].map(|axis: usize| self.min[axis].midpoint(self.max[axis]));
         let can_divide = depth > 0 && [0, 1].iter().all(|&axis| self.min[axis] < middle[axis]);
         match share(self) {
-            Share::None => return false,
-            Share::Some if can_divide => {}
-            Share::Some | Share::All => {
+            Ternary::Never => return false,
+            Ternary::Maybe if can_divide => {}
+            Ternary::Maybe | Ternary::Always => {
                 parts.push(*self);
                 return true;
             }

@@ -11,7 +11,7 @@ use crate::layers::{Combine, DepthSizes, LayerId, Mask, PaintLayers, Quantity, S
 use crate::raster::{ValueRange, ValueRanges};
 
 use super::analytic::{Analytic, Function};
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::{Cells, Cut};
 use super::cover::{Cover, share_in_mask};
 use super::patch::TouchedCells;
@@ -137,7 +137,7 @@ impl CompiledLayer {
         match &self.values {
             Values::Constant(constant) => {
                 let value = ValueRange::one(constant.at(lattice.bounds().min));
-                self.reading.answer(value, limit).asks == Share::All
+                self.reading.answer(value, limit).asks == Ternary::Always
             }
             Values::Nothing => false,
             Values::Paint(grid) => paint.get(self.id).is_some_and(|raster| {
@@ -184,7 +184,7 @@ impl CompiledLayer {
             }
             Values::Nothing | Values::Constant(_) | Values::Analytic(_) | Values::Depth(_) => return nothing,
         };
-        Some((self.reading.diameters(range), self.reading.question(limit).asks(range) != Share::None))
+        Some((self.reading.diameters(range), self.reading.question(limit).asks(range) != Ternary::Never))
     }
 
     /// [`Self::any_below`] by rectangles of cells.
@@ -205,7 +205,7 @@ impl CompiledLayer {
 
     /// Returns whether the mask certainly covers none of some cells.
     pub fn is_masked_out(&self, cells: &Cells, lattice: &Lattice) -> bool {
-        self.is_masked() && self.coverage(cells, lattice).0 == Share::None
+        self.is_masked() && self.coverage(cells, lattice).0 == Ternary::Never
     }
 
     /// Returns whether the layer may count in a part of the plane only.
@@ -215,10 +215,10 @@ impl CompiledLayer {
 
     /// Returns in how many of some cells the layer counts, and where to divide them to know more: those that
     /// the mask covers, and no depths above it hide.
-    fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
+    fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Ternary, Option<Cut>) {
         let mut coverage = share_in_mask(self.mask.as_ref(), cells, lattice);
         for cover in &self.covers {
-            if coverage.0 == Share::None {
+            if coverage.0 == Ternary::Never {
                 break;
             }
             let (hidden, cut) = cover.share_of(cells, lattice);
@@ -236,7 +236,7 @@ impl CompiledLayer {
         lattice: &Lattice,
     ) -> (RangeAnswer, Option<Cut>) {
         let (coverage, mask_cut) = self.coverage(&patch.cells, lattice);
-        if coverage == Share::None {
+        if coverage == Ternary::Never {
             return (RangeAnswer::NOTHING, None);
         }
         let (range, cut) = self.range(paint, &patch.cells, lattice);
@@ -248,7 +248,7 @@ impl CompiledLayer {
         {
             answer = self.reading.answer(range, limit);
         }
-        if coverage == Share::Some {
+        if coverage == Ternary::Maybe {
             answer = RangeAnswer { asks: answer.asks.masked(), present: answer.present.masked() };
         }
         (answer, mask_cut.or(cut).filter(|_| answer.is_undecided()))
@@ -265,12 +265,12 @@ impl CompiledLayer {
         lattice: &Lattice,
     ) -> (Diameters, Option<Cut>) {
         let (coverage, mask_cut) = self.coverage(cells, lattice);
-        if coverage == Share::None {
+        if coverage == Ternary::Never {
             return (Diameters::NOTHING, None);
         }
         let (range, cut) = self.range(paint, cells, lattice);
         let mut diameters = range.map_or(Diameters::NOTHING, |range| self.reading.diameters(range));
-        if coverage == Share::Some {
+        if coverage == Ternary::Maybe {
             diameters.present = diameters.present.masked();
             diameters.greatest = f64::INFINITY;
         }
@@ -352,7 +352,7 @@ impl CompiledLayer {
     /// Returns whether the diameters rise to `h_max` without a jump where the layer stops asking in some
     /// cells.
     pub fn fades_to(&self, h_max: f64, cells: &Cells, lattice: &Lattice) -> bool {
-        if self.coverage(cells, lattice).0 != Share::All {
+        if self.coverage(cells, lattice).0 != Ternary::Always {
             return false;
         }
         match (&self.values, &self.graded) {

@@ -8,7 +8,7 @@ use crate::geometry::Lattice;
 use crate::layers::{Coverage, Mask};
 use crate::raster::{RasterPyramid, ValueRange, ValueRanges};
 
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::values::WithGaps;
 
@@ -26,7 +26,7 @@ pub struct CoveredValues {
     /// Bounds of the values that it has.
     pub range: ValueRange,
     /// In how many of the cells it has one.
-    pub share: Share,
+    pub share: Ternary,
     /// Where to divide the cells to know more.
     pub cut: Option<Cut>,
 }
@@ -38,34 +38,34 @@ impl Cover {
     }
 
     /// Returns how many of some cells it has, and where to divide them to know more.
-    pub fn share_of(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
+    pub fn share_of(&self, cells: &Cells, lattice: &Lattice) -> (Ternary, Option<Cut>) {
         let (masked, mask_cut) = share_in_mask(self.mask.as_ref(), cells, lattice);
-        if masked == Share::None {
-            return (Share::None, None);
+        if masked == Ternary::Never {
+            return (Ternary::Never, None);
         }
         let with_gaps = WithGaps { raster: &self.raster, gap: f32::INFINITY };
         let (range, cut) = self.grid.range(&with_gaps, cells);
         let known = match (range.least < f32::INFINITY, range.greatest < f32::INFINITY) {
-            (_, true) => Share::All,
-            (true, false) => Share::Some,
-            (false, false) => Share::None,
+            (_, true) => Ternary::Always,
+            (true, false) => Ternary::Maybe,
+            (false, false) => Ternary::Never,
         };
         let share = masked.and(known);
-        (share, mask_cut.or(cut).filter(|_| share == Share::Some))
+        (share, mask_cut.or(cut).filter(|_| share == Ternary::Maybe))
     }
 
     /// Returns the values in some cells; `None` where it has none.
     pub fn values(&self, cells: &Cells, lattice: &Lattice) -> Option<CoveredValues> {
         let (masked, mask_cut) = share_in_mask(self.mask.as_ref(), cells, lattice);
-        if masked == Share::None {
+        if masked == Ternary::Never {
             return None;
         }
         let [(low, cut), (high, _)] = [f32::INFINITY, f32::NEG_INFINITY]
             .map(|gap| self.grid.range(&WithGaps { raster: &self.raster, gap }, cells));
         let known = match (low.least < f32::INFINITY, low.greatest < f32::INFINITY) {
             (false, _) => return None,
-            (true, false) => Share::Some,
-            (true, true) => Share::All,
+            (true, false) => Ternary::Maybe,
+            (true, true) => Ternary::Always,
         };
         let range = ValueRange { least: low.least, greatest: high.greatest };
         Some(CoveredValues { range, share: masked.and(known), cut: cut.or(mask_cut) })
@@ -89,14 +89,14 @@ impl Cover {
 }
 
 /// Returns how many of some cells a mask covers, all without one, and where to divide them to know more.
-pub fn share_in_mask(mask: Option<&Mask>, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
-    let Some(mask) = mask else { return (Share::All, None) };
+pub fn share_in_mask(mask: Option<&Mask>, cells: &Cells, lattice: &Lattice) -> (Ternary, Option<Cut>) {
+    let Some(mask) = mask else { return (Ternary::Always, None) };
     let Some(cut) = cells.middle() else {
-        return (Share::of(mask.contains(cells.center(lattice))), None);
+        return (Ternary::of(mask.contains(cells.center(lattice))), None);
     };
     match mask.classify(&cells.centers(lattice)) {
-        Coverage::Inside => (Share::All, None),
-        Coverage::Outside => (Share::None, None),
-        Coverage::Mixed => (Share::Some, Some(cut)),
+        Coverage::Inside => (Ternary::Always, None),
+        Coverage::Outside => (Ternary::Never, None),
+        Coverage::Mixed => (Ternary::Maybe, Some(cut)),
     }
 }

@@ -8,7 +8,7 @@ use crate::layers::{DepthSizes, Quantity};
 use crate::raster::ValueRange;
 
 use super::analytic::{Analytic, Function};
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::{Cells, Cut};
 use super::cover::Cover;
 
@@ -28,7 +28,7 @@ struct CellDepths {
     /// Bounds in metres.
     depths: Bounds,
     /// In how many of the cells there is one.
-    share: Share,
+    share: Ternary,
     /// Where to divide the cells to know more.
     cut: Option<Cut>,
 }
@@ -58,7 +58,7 @@ impl DepthFormula {
                     cut: above.cut.or(values.cut),
                 },
             });
-            if values.share == Share::All {
+            if values.share == Ternary::Always {
                 break;
             }
         }
@@ -78,7 +78,7 @@ impl DepthFormula {
             return (Some(ValueRange::one(self.values.value(value))), None);
         };
         let mut range = self.values.enclosed(self.formula.bounds_with_depth(&cells.centers(lattice), depths));
-        if share != Share::All {
+        if share != Ternary::Always {
             range = range.union(ValueRange::one(self.nothing()));
         }
         (Some(range), cut.or(Some(middle)).filter(|_| !range.is_one()))

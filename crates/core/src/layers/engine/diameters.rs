@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::{Cells, Cut};
 use super::compiled::CompiledLayer;
 use super::counting::Counting;
@@ -162,12 +162,12 @@ impl Stack {
             let (diameters, layer_cut) = layer.diameters(paint, cells, self.lattice());
             let Diameters { least: low, greatest: high, present } = diameters;
             match (layer.combine, present) {
-                (_, Share::None) => {}
+                (_, Ternary::Never) => {}
                 (Combine::Finest, _) => (least, greatest) = (least.min(low), greatest.min(high)),
-                (Combine::Floor, Share::All) => (least, greatest) = (least.max(low), greatest.max(high)),
-                (Combine::Floor, Share::Some) => greatest = greatest.max(high),
-                (Combine::Replace, Share::All) => (least, greatest, cut) = (low, high, None),
-                (Combine::Replace, Share::Some) => {
+                (Combine::Floor, Ternary::Always) => (least, greatest) = (least.max(low), greatest.max(high)),
+                (Combine::Floor, Ternary::Maybe) => greatest = greatest.max(high),
+                (Combine::Replace, Ternary::Always) => (least, greatest, cut) = (low, high, None),
+                (Combine::Replace, Ternary::Maybe) => {
                     (least, greatest) = (least.min(low), greatest.max(high));
                 }
             }

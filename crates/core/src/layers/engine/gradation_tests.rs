@@ -10,8 +10,8 @@ use crate::domain::{BoundaryMarks, Domain, Ring};
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::{
-    DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, RasterLayer, RasterReading,
-    RasterSource, ShapeList, Shapes, SizeField, SizeFieldSpec, StraitDiscs, Straits, Threat, ThreatLaw,
+    DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, MedialBalls, PaintLayers, RasterLayer,
+    RasterReading, RasterSource, ShapeList, Shapes, SizeField, SizeFieldSpec, Straits, Threat, ThreatLaw,
     Threats,
 };
 use crate::raster::{Raster, RasterPyramid};
@@ -148,7 +148,7 @@ fn sea(random: &mut fastrand::Rng) -> [LayerKind; 3] {
     };
     let island = ring(0.2 + 0.1 * random.f64()).into_iter().rev().collect();
     let water = Domain::of_polygons(&[vec![ring(0.4), island]]).unwrap();
-    let found = StraitDiscs::of(&water, &BoundaryMarks::default(), [0.02, 0.5]);
+    let found = MedialBalls::of(&water, &BoundaryMarks::default(), [0.02, 0.5]);
     assert!(!found.discs().is_empty());
     let lines = vec![vec![dvec2(0.1, 0.1), dvec2(random.f64(), 0.9)]];
     let shapes = Shapes::new(ShapeList { lines, ..ShapeList::default() }, false).unwrap();

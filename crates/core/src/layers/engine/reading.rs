@@ -6,7 +6,7 @@ use crate::field::{Bounds, RiskToDiameter, Transfer, TransferTable};
 use crate::layers::{Combine, Depths, ValueCurve};
 use crate::raster::ValueRange;
 
-use super::asked::Share;
+use super::asked::Ternary;
 
 /// The risk of places without a value: it asks for nothing.
 pub const NO_RISK: f32 = f32::NEG_INFINITY;
@@ -45,19 +45,19 @@ pub enum Reading {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RangeAnswer {
     /// The share of the points at which the values are below a limit.
-    pub asks: Share,
+    pub asks: Ternary,
     /// The share of the points at which the values have a target diameter.
-    pub present: Share,
+    pub present: Ternary,
 }
 
 impl RangeAnswer {
     /// No target diameter anywhere.
-    pub const NOTHING: Self = Self { asks: Share::None, present: Share::None };
+    pub const NOTHING: Self = Self { asks: Ternary::Never, present: Ternary::Never };
 
     /// Returns whether the range needs to be divided to know more.
     #[inline]
     pub fn is_undecided(self) -> bool {
-        self.asks == Share::Some || self.present == Share::Some
+        self.asks == Ternary::Maybe || self.present == Ternary::Maybe
     }
 }
 
@@ -70,15 +70,15 @@ pub struct Diameters {
     /// No point asks for more.
     pub greatest: f64,
     /// The share of the points that have a target diameter.
-    pub present: Share,
+    pub present: Ternary,
 }
 
 impl Diameters {
     /// No target diameter anywhere.
-    pub const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, present: Share::None };
+    pub const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, present: Ternary::Never };
 
     /// Returns the share of the points whose target is below a diameter.
-    fn share_below(self, diameter: f64) -> Share {
+    fn share_below(self, diameter: f64) -> Ternary {
         share(self.least < diameter, self.greatest < diameter)
     }
 }
@@ -159,8 +159,8 @@ impl Reading {
                     false => table.enclosing(transfer, f64::from(least), f64::from(greatest)),
                 };
                 Diameters {
-                    least: if present == Share::None { f64::INFINITY } else { low },
-                    greatest: if present == Share::All { high } else { f64::INFINITY },
+                    least: if present == Ternary::Never { f64::INFINITY } else { low },
+                    greatest: if present == Ternary::Always { high } else { f64::INFINITY },
                     present,
                 }
             }
@@ -176,24 +176,25 @@ impl Reading {
                     true => Bounds::one(curve.diameter(low)),
                     false => curve.bounds(low, high),
                 };
-                let least = if present == Share::None { f64::INFINITY } else { asked.least };
-                let greatest = if present == Share::All { asked.greatest } else { f64::INFINITY };
+                let least = if present == Ternary::Never { f64::INFINITY } else { asked.least };
+                let greatest = if present == Ternary::Always { asked.greatest } else { f64::INFINITY };
                 Diameters { least, greatest, present }
             }
             Self::Band { between: [from, to], diameter, .. } => {
                 let [least, greatest] = [least, greatest].map(f64::from);
                 let present = share(greatest >= *from && least <= *to, least >= *from && greatest <= *to);
                 let [least, greatest] = match present {
-                    Share::All => [*diameter; 2],
-                    Share::Some => [*diameter, f64::INFINITY],
-                    Share::None => [f64::INFINITY; 2],
+                    Ternary::Always => [*diameter; 2],
+                    Ternary::Maybe => [*diameter, f64::INFINITY],
+                    Ternary::Never => [f64::INFINITY; 2],
                 };
                 Diameters { least, greatest, present }
             }
             Self::Depth { depths, factor, .. } if least < f32::INFINITY => {
                 let asked = depths.asked(f64::from(least), f64::from(greatest.min(f32::MAX)));
                 let present = share(asked.any, asked.all && greatest < f32::INFINITY);
-                let greatest = if present == Share::All { factor * asked.greatest } else { f64::INFINITY };
+                let greatest =
+                    if present == Ternary::Always { factor * asked.greatest } else { f64::INFINITY };
                 Diameters { least: factor * asked.least, greatest, present }
             }
             Self::Depth { .. } => Diameters::NOTHING,
@@ -215,7 +216,7 @@ pub enum ValueTest<'a> {
 impl ValueTest<'_> {
     /// Returns how many of the values of a range ask for more.
     #[inline]
-    pub fn asks(self, range: ValueRange) -> Share {
+    pub fn asks(self, range: ValueRange) -> Ternary {
         let ValueRange { least, greatest } = range;
         match self {
             Self::AtLeast(limit) => share(greatest >= limit, least >= limit),
@@ -224,8 +225,8 @@ impl ValueTest<'_> {
         }
     }
 
-    /// Returns whether a greater or a lower value always asks for more: then a range with [`Share::Some`] has
-    /// a value that asks.
+    /// Returns whether a greater or a lower value always asks for more: then a range with [`Ternary::Maybe`]
+    /// has a value that asks.
     #[inline]
     pub fn is_monotone(self) -> bool {
         matches!(self, Self::AtLeast(_) | Self::AtMost(_))
@@ -254,13 +255,13 @@ impl Reading {
 }
 
 #[inline]
-fn share(any: bool, all: bool) -> Share {
+fn share(any: bool, all: bool) -> Ternary {
     if all {
-        Share::All
+        Ternary::Always
     } else if any {
-        Share::Some
+        Ternary::Maybe
     } else {
-        Share::None
+        Ternary::Never
     }
 }
 

@@ -7,7 +7,7 @@ use crate::domain::corners;
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::{
-    DistanceLayer, DistanceTo, Layer, LayerKind, PaintLayers, SettledSquares, ShapeList, Shapes, SizeField,
+    DistanceLayer, DistanceTo, Layer, LayerKind, LevelCache, PaintLayers, ShapeList, Shapes, SizeField,
     SizeFieldSpec,
 };
 use crate::mesh::{Limits, Mesh};
@@ -23,7 +23,7 @@ fn looks(kind: LayerKind) -> [usize; 2] {
         gradation: None,
         projection: None,
     };
-    let (field, mut squares) = (SizeField::new(spec, &lattice), SettledSquares::default());
+    let (field, mut squares) = (SizeField::new(spec, &lattice), LevelCache::default());
     let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
     LOOKED_AT.set(0);
     let mut asks =

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use crate::geometry::Octagon;
 use crate::raster::{ValueRange, ValueRanges};
 
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::pixels::range_touching;
 use super::reading::ValueTest;
@@ -14,7 +14,7 @@ use super::reading::ValueTest;
 /// `ask` says so.
 ///
 /// `ask` answers for all cells of a rectangle: where they ask for more, and where to divide the rectangle to
-/// know more. It must give a cut wherever the answer is [`Share::Some`].
+/// know more. It must give a cut wherever the answer is [`Ternary::Maybe`].
 ///
 /// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can
 /// stay undecided to the last. So after [`MOST_IN_ORDER`] rectangles, each within or beside the one before,
@@ -22,7 +22,7 @@ use super::reading::ValueTest;
 pub fn any_cell(
     triangle: &Octagon,
     cells: Cells,
-    ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
+    ask: &mut impl FnMut(&Cells) -> (Ternary, Option<Cut>),
 ) -> bool {
     let mut left = vec![cells];
     for _ in 0..MOST_IN_ORDER {
@@ -41,7 +41,7 @@ pub fn any_cell(
 fn any_cell_by_size(
     triangle: &Octagon,
     left: Vec<Cells>,
-    ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
+    ask: &mut impl FnMut(&Cells) -> (Ternary, Option<Cut>),
 ) -> bool {
     let by_size = |Cells { min, max }: Cells| ((max[0] - min[0]).max(max[1] - min[1]), min, max);
     let mut left: BinaryHeap<_> = left.into_iter().map(by_size).collect();
@@ -79,7 +79,7 @@ thread_local! {
 fn look(
     triangle: &Octagon,
     cells: Cells,
-    ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
+    ask: &mut impl FnMut(&Cells) -> (Ternary, Option<Cut>),
 ) -> RectangleVerdict {
     if !triangle.meets(&cells.octagon()) {
         return RectangleVerdict::DoesNot;
@@ -87,9 +87,9 @@ fn look(
     #[cfg(test)]
     LOOKED_AT.with(|looked_at| looked_at.set(looked_at.get() + 1));
     match ask(&cells) {
-        (Share::None, _) => RectangleVerdict::DoesNot,
-        (Share::All, _) => RectangleVerdict::Asks,
-        (Share::Some, cut) => {
+        (Ternary::Never, _) => RectangleVerdict::DoesNot,
+        (Ternary::Always, _) => RectangleVerdict::Asks,
+        (Ternary::Maybe, cut) => {
             RectangleVerdict::Undecided(cells.divided(cut.expect("an undecided rectangle has a cut")))
         }
     }
@@ -111,7 +111,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
     /// square does not decide and the triangle spans few pixels, it looks at all of these.
     #[inline]
     pub fn any(&self, triangle: &Octagon, cells: &Cells) -> bool {
-        if self.question.asks(self.raster.whole_range()) == Share::None {
+        if self.question.asks(self.raster.whole_range()) == Ternary::Never {
             return false;
         }
         let scale = self.grid.scale_of(cells).max(self.raster.finest());
@@ -124,7 +124,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
                     SquareVerdict::DoesNot => {}
                     SquareVerdict::Undecided(square) => {
                         if may_read_pixels && let Some(range) = self.range_touching(triangle, cells) {
-                            return self.question.asks(range) != Share::None;
+                            return self.question.asks(range) != Ternary::Never;
                         }
                         // They are those of the whole triangle: another square would not tell more.
                         may_read_pixels = false;
@@ -151,7 +151,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
     ) -> SquareVerdict {
         // Most squares are decided by their values.
         let asks = self.question.asks(self.raster.range_anywhere(scale, [x, y]));
-        if asks == Share::None {
+        if asks == Ternary::Never {
             return SquareVerdict::DoesNot;
         }
         let cells = cells();
@@ -160,7 +160,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         if cells.intersection(around).is_none() || !triangle.meets(&octagon) {
             return SquareVerdict::DoesNot;
         }
-        if asks == Share::All || (self.question.is_monotone() && triangle.contains(&octagon)) {
+        if asks == Ternary::Always || (self.question.is_monotone() && triangle.contains(&octagon)) {
             return SquareVerdict::Asks;
         }
         SquareVerdict::Undecided(cells)
@@ -214,9 +214,9 @@ mod tests {
                 let is_on_row = cells.min[1] <= row && row < cells.max[1];
                 let common = cells.intersection(&rect);
                 match common {
-                    Some(common) if common == *cells => (Share::All, None),
-                    None if !is_on_row || size == [1, 1] => (Share::None, None),
-                    _ => (Share::Some, Some(cut)),
+                    Some(common) if common == *cells => (Ternary::Always, None),
+                    None if !is_on_row || size == [1, 1] => (Ternary::Never, None),
+                    _ => (Ternary::Maybe, Some(cut)),
                 }
             }
         };

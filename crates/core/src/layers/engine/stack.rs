@@ -1,6 +1,6 @@
 //! Visible layers on a lattice, asked as one.
 
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::{Cells, Cut};
 use super::compiled::CompiledLayer;
 use super::gradation;
@@ -213,25 +213,25 @@ impl Stack {
         paint: &PaintLayers,
         patch: &TouchedCells,
         limit: usize,
-    ) -> (Share, Option<Cut>) {
-        let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
+    ) -> (Ternary, Option<Cut>) {
+        let Some(below) = count.checked_sub(1) else { return (Ternary::Never, None) };
         let layer = &self.layers[below];
         let (RangeAnswer { asks, present }, cut) = layer.answer(paint, patch, limit, &self.lattice);
         let permits = present.not().or(asks);
         match layer.combine {
-            Combine::Finest if asks == Share::All => return (Share::All, None),
-            Combine::Floor if permits == Share::None => return (Share::None, None),
-            Combine::Replace if present == Share::All => return (asks, cut),
+            Combine::Finest if asks == Ternary::Always => return (Ternary::Always, None),
+            Combine::Floor if permits == Ternary::Never => return (Ternary::Never, None),
+            Combine::Replace if present == Ternary::Always => return (asks, cut),
             _ => {}
         }
         let (rest, rest_cut) = self.asks(below, paint, patch, limit);
         let share = match layer.combine {
             Combine::Finest => rest.or(asks),
             Combine::Floor => rest.and(permits),
-            Combine::Replace if present == Share::None => rest,
-            Combine::Replace if permits == Share::All && rest == Share::All => Share::All,
-            Combine::Replace if asks == Share::None && rest == Share::None => Share::None,
-            Combine::Replace => Share::Some,
+            Combine::Replace if present == Ternary::Never => rest,
+            Combine::Replace if permits == Ternary::Always && rest == Ternary::Always => Ternary::Always,
+            Combine::Replace if asks == Ternary::Never && rest == Ternary::Never => Ternary::Never,
+            Combine::Replace => Ternary::Maybe,
         };
         (share, cut.or(rest_cut))
     }

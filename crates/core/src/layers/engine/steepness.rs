@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::field::Bounds;
 use crate::layers::{Combine, PaintLayers};
 
-use super::asked::Share;
+use super::asked::Ternary;
 use super::cells::Cells;
 use super::compiled::CompiledLayer;
 use super::cone::Cone;
@@ -138,9 +138,9 @@ impl<'a> AskedDiameters<'a> {
             let diameters = layer.diameters(paint, cells, stack.lattice()).0;
             let is_alone = layers.is_empty();
             match (diameters.present, layer.combine) {
-                (Share::None, _) => continue,
+                (Ternary::Never, _) => continue,
                 (_, Combine::Floor) if is_alone => continue,
-                (Share::All, Combine::Replace) => {
+                (Ternary::Always, Combine::Replace) => {
                     layers.clear();
                     is_minimum = true;
                 }
@@ -167,7 +167,7 @@ pub fn slopes(
     // Values on both sides of the border count.
     let cells = &cells.with_neighbours(stack.lattice().extent());
     let AskedDiameters { layers: asked, is_minimum } = AskedDiameters::of(stack, paint, cells, &mut counting);
-    let all = asked.iter().filter(|(_, _, diameters)| diameters.present == Share::All);
+    let all = asked.iter().filter(|(_, _, diameters)| diameters.present == Ternary::Always);
     let decides = all.map(|(_, _, diameters)| diameters.greatest).fold(f64::INFINITY, f64::min);
     for (number, _, diameters) in &asked {
         if is_minimum && diameters.least > decides {
@@ -181,7 +181,7 @@ pub fn slopes(
     let deciding = asked.iter().filter(|(_, _, diameters)| !is_minimum || diameters.least < decides);
     let deciding = || deciding.clone().map(|(_, layer, diameters)| (*layer, diameters));
     let is_smooth = |layer: &CompiledLayer, diameters: &Diameters| match background {
-        _ if diameters.present == Share::All => !layer.jumps(diameters),
+        _ if diameters.present == Ternary::Always => !layer.jumps(diameters),
         Some(h_max) => layer.fades_to(h_max, cells, stack.lattice()),
         None => false,
     };

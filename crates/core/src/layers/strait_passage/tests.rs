@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, dvec2};
 
 use crate::domain::{BoundaryMarks, BoundaryType, Domain, Ring};
-use crate::layers::StraitDiscs;
+use crate::layers::MedialBalls;
 
 /// Pixels of a raster along a side.
 const SIDE: usize = 320;
@@ -126,7 +126,7 @@ fn the_narrowest_passage_is_where_erosion_parts_the_water_first() {
         let Some(radius) = first_parting(&rings, 3.0) else { continue };
         let domain = Domain::of_polygons(std::slice::from_ref(&rings)).unwrap();
         for least in [0.05, 0.5] {
-            let straits = StraitDiscs::of(&domain, &BoundaryMarks::default(), [least, 7.0]);
+            let straits = MedialBalls::of(&domain, &BoundaryMarks::default(), [least, 7.0]);
             let passage = straits.narrowest(&domain).unwrap();
             let [own, eroded] = [passage.width, 2.0 * radius];
             assert!((own - eroded).abs() < 3.0 * pixel(), "{own} for {eroded} in round {round}: {passage:?}");
@@ -146,7 +146,7 @@ fn narrowest(rings: Vec<Ring>) -> Option<f64> {
     let turned = |ring: Ring| ring.into_iter().map(|at| DVec2::from_angle(0.3).rotate(at)).collect();
     let rings: Vec<Ring> = rings.into_iter().map(turned).collect();
     let domain = Domain::of_polygons(&[rings]).unwrap();
-    let straits = StraitDiscs::of(&domain, &BoundaryMarks::default(), [0.01, 3.0]);
+    let straits = MedialBalls::of(&domain, &BoundaryMarks::default(), [0.01, 3.0]);
     straits.narrowest(&domain).map(|passage| passage.width)
 }
 
@@ -191,7 +191,7 @@ fn coasts_that_meet_at_the_frame_are_no_passage() {
         types: vec![(dvec2(0.0, 0.0), BoundaryType::Open)],
         ..BoundaryMarks::default()
     };
-    let straits = StraitDiscs::of(&domain, &marks, [0.01, 3.0]);
+    let straits = MedialBalls::of(&domain, &marks, [0.01, 3.0]);
     assert!(!straits.discs().is_empty());
     assert_eq!(straits.narrowest(&domain), None);
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::dvec2;
 use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Readings, Settings, Stage};
-use meshbrush_core::layers::SettledSquares;
+use meshbrush_core::layers::LevelCache;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Fingerprint, Mesh, NodeId, Progress, Triangle, TriangleId};
@@ -72,8 +72,7 @@ impl Driver {
     fn check_readings(&mut self) {
         let Self { document, follower, readings, .. } = self;
         for at in [dvec2(0.31, 0.62), dvec2(0.77, 0.24)] {
-            let alone =
-                follower.field().quick_decision_at(&mut SettledSquares::default(), document.paint(), at);
+            let alone = follower.field().quick_decision_at(&mut LevelCache::default(), document.paint(), at);
             assert_eq!(readings.decision_at(document, follower, at), alone);
         }
     }

@@ -7,9 +7,9 @@ use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     BandLayer, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
-    LayerKind, Mask, PositiveDepth, Quantity, RasterLayer, RasterReading, RasterSource, ShapeList, Shapes,
-    StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats,
-    ValueCurve, WaterMiddle,
+    LayerKind, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer, RasterReading,
+    RasterSource, ShapeList, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat,
+    ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -77,9 +77,9 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         13 => {
             let between = [4.0 * diameter, 8.0 * diameter];
             match choices.below(2) {
-                0 => LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) }),
+                0 => LayerKind::Straits(Straits { across: 3.0, found: MedialBalls::unknown(between) }),
                 _ => {
-                    let found = WaterMiddle::unknown(between);
+                    let found = MedialAxis::unknown(between);
                     FeatureSize { across: 3.0, found }.into()
                 }
             }

@@ -9,8 +9,8 @@ use meshbrush_core::domain::{PieceChoice, Polygon};
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{
-    DepthSizes, DistanceTo, FeatureSize, FormulaLayer, LayerKind, Quantity, RasterReading, ShapeList,
-    StraitDiscs, Straits, SurfaceGoal, SurfaceNorm, Threat, ThreatError, ValueCurve, WaterMiddle,
+    DepthSizes, DistanceTo, FeatureSize, FormulaLayer, LayerKind, MedialAxis, MedialBalls, Quantity,
+    RasterReading, ShapeList, Straits, SurfaceGoal, SurfaceNorm, Threat, ThreatError, ValueCurve,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
@@ -108,12 +108,12 @@ impl SavedLayer {
             SavedKind::Surface => self.checked_surface(stored)?,
             SavedKind::Straits => {
                 let (across, between) = self.across_widths()?;
-                let found = StraitDiscs::unknown(between);
+                let found = MedialBalls::unknown(between);
                 CheckedKind::Complete(LayerKind::Straits(Straits { across, found }))
             }
             SavedKind::FeatureSize => {
                 let (across, between) = self.across_widths()?;
-                let found = WaterMiddle::unknown(between);
+                let found = MedialAxis::unknown(between);
                 CheckedKind::Complete(LayerKind::FeatureSize(FeatureSize { across, found }))
             }
         })

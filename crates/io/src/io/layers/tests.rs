@@ -22,7 +22,10 @@ fn every_kind_is_read_from_its_keys() {
     let polygons = layer.mask_in_place().unwrap().unwrap();
     assert_eq!(polygons[0][0].len(), 3, "the repeated first point is removed");
     for (json, expected) in [
-        (r#"{ "kind": "paint", "quantity": "diameter" }"#, "Complete(Paint(PaintLayer { quantity: Diameter }))"),
+        (
+            r#"{ "kind": "paint", "quantity": "diameter" }"#,
+            "Complete(Paint(PaintLayer { quantity: Diameter }))",
+        ),
         (
             r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#,
             "Threats(Some([Threat { at: DVec2(1.0, 2.0), range: 3.0, peak: 1.0, law: Radar }]))",

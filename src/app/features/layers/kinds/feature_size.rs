@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::water::{ChangedWater, WaterRows};
 use meshbrush_core::document::Settings;
-use meshbrush_core::layers::{FeatureSize, Layer, LayerKind, WaterMiddle};
+use meshbrush_core::layers::{FeatureSize, Layer, LayerKind, MedialAxis};
 use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use meshbrush_ui::widgets::Icon;
@@ -37,7 +37,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         remark(ui, "Nowhere is the water so wide between two coasts: the layer asks for nothing.");
     }
     if let Some(ChangedWater { across, between }) = changed {
-        let found = between.map_or_else(|| found.clone(), |between| WaterMiddle::of(domain, marks, between));
+        let found = between.map_or_else(|| found.clone(), |between| MedialAxis::of(domain, marks, between));
         set_kind_once(layer, FeatureSize { across, found }, commands);
     }
 }

@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use super::water::{ChangedWater, WaterRows};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::Domain;
-use meshbrush_core::layers::{Layer, LayerKind, StraitDisc, StraitDiscs, Straits};
+use meshbrush_core::layers::{Layer, LayerKind, MedialBall, MedialBalls, Straits};
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use meshbrush_ui::widgets::{Icon, ValueRow, format};
@@ -41,7 +41,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         remark(ui, "The smallest diameter leaves fewer triangles across the narrowest strait.");
     }
     if let Some(ChangedWater { across, between }) = changed {
-        let found = between.map_or_else(|| found.clone(), |between| StraitDiscs::of(domain, marks, between));
+        let found = between.map_or_else(|| found.clone(), |between| MedialBalls::of(domain, marks, between));
         set_kind_once(layer, Straits { across, found }, commands);
     }
 }
@@ -49,10 +49,10 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
 fn show_narrowest(
     ui: &mut Ui,
     state: &FrameState<'_>,
-    (domain, narrowest): (&Domain, Option<StraitDisc>),
+    (domain, narrowest): (&Domain, Option<MedialBall>),
     commands: &mut Vec<Command>,
 ) {
-    let Some(StraitDisc { center, width, .. }) = narrowest else {
+    let Some(MedialBall { center, width, .. }) = narrowest else {
         let help = "No passage between two shores has wider water on both sides.";
         ValueRow::new("Narrowest strait", "none").help(help).show(ui);
         return;
