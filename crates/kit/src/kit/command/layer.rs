@@ -29,7 +29,8 @@ pub enum LayerCommand {
     Lock(LayerId, bool),
     /// Chooses how a layer is combined with those below it.
     Combine(LayerId, Combine),
-    /// Changes what a layer asks for. Further changes join this gesture until [`Command::EndGesture`].
+    /// Changes what a layer asks for. Further changes join this gesture until
+    /// [`EditCommand::EndGesture`](super::EditCommand::EndGesture).
     SetKind(LayerId, Box<LayerKind>),
     /// Chooses what the distance of a layer is measured to.
     MeasureTo(LayerId, DistanceTo),

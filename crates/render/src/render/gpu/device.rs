@@ -20,7 +20,8 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
     }
 }
 
-/// Returns whether the driver emulates a GPU. [`GpuRenderer::prepare_in_software`] is then faster.
+/// Returns whether the driver emulates a GPU.
+/// [`GpuRenderer::prepare_in_software`](super::GpuRenderer::prepare_in_software) is then faster.
 pub fn emulates_gpu(adapter: &wgpu::Adapter) -> bool {
     adapter.get_info().device_type == wgpu::DeviceType::Cpu
 }
