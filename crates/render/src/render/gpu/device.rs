@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::chunks::{ChunkLimits, NODE_BUFFERS};
 use super::error::GpuError;
-use super::pipelines::uniform_entry;
+use super::pipelines::{storage_entry, uniform_entry};
 use meshbrush_mesh::geometry::LatticePoint;
 
 /// Storage buffers that the shader reads: triangles, nodes, flags and the order of triangles.
@@ -90,17 +90,8 @@ impl Gpu {
 }
 
 fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let storage = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let entries: Vec<_> = (0..STORAGE_BUFFERS).map(storage).chain([uniform_entry(STORAGE_BUFFERS)]).collect();
+    let entries: Vec<_> =
+        (0..STORAGE_BUFFERS).map(storage_entry).chain([uniform_entry(STORAGE_BUFFERS)]).collect();
     device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
 }

@@ -8,7 +8,9 @@ use super::device::STORAGE_BUFFERS;
 use super::error::GpuError;
 use super::layout::SpaceUniform;
 use super::mirror::MeshMirror;
-use super::pipelines::{new_texture, pipeline_from, shader_module, uniform_buffer, uniform_entry};
+use super::pipelines::{
+    new_texture, pipeline_from, shader_module, storage_entry, uniform_buffer, uniform_entry,
+};
 use super::shaders::SPACE;
 use crate::scene::{NO_HEIGHT, NodeHeights, SpaceView, Style};
 
@@ -46,19 +48,9 @@ impl SpacePass {
             return Err(GpuError::TooFewStorageBuffers { available, needed });
         }
         let view = uniform_buffer(device, "space view", size_of::<SpaceUniform>());
-        let heights_entry = wgpu::BindGroupLayoutEntry {
-            binding: 1,
-            visibility: wgpu::ShaderStages::VERTEX,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("space view"),
-            entries: &[uniform_entry(0), heights_entry],
+            entries: &[uniform_entry(0), storage_entry(1)],
         });
         let shader = shader_module(device, "space", SPACE);
         let groups = [&layout, mirror.layout()];
