@@ -1,6 +1,7 @@
 //! Settings that are given as a whole, as by a recipe or a script.
 
 use super::{Document, Setting, Settings, SettingsError};
+use crate::field::Transfer;
 use crate::mesh::{CoarseError, bisection_edge_length};
 
 impl Settings {
@@ -34,20 +35,39 @@ impl Document {
     /// Fails when the wanted settings are out of range: then nothing changes. Where a change on the way there
     /// is refused, the changes before it stay.
     pub fn change_numbers(&mut self, wanted: Settings) -> Result<(), SettingsError> {
-        let wanted = wanted.checked()?;
+        // Without `..`: a new setting does not compile until somebody has decided whether it is changed here.
+        let Settings {
+            name: _,
+            unit: _,
+            background: _,
+            domain: _,
+            boundary_marks: _,
+            pins: _,
+            paths: _,
+            layers: _,
+            boundary,
+            cleaning,
+            spacing,
+            transfer: Transfer { h_min, h_risk, h_max, shape },
+            gradation,
+            rule,
+            max_triangles,
+            max_memory,
+            max_level,
+        } = wanted.checked()?;
         let changes = [
-            Setting::Spacing(wanted.spacing),
-            Setting::LargestDiameter(wanted.transfer.h_max),
-            Setting::SmallestDiameter(wanted.transfer.h_min),
-            Setting::DiameterAtRiskOne(wanted.transfer.h_risk),
-            Setting::TransferShape(wanted.transfer.shape),
-            Setting::Gradation(wanted.gradation),
-            Setting::RefinementRule(wanted.rule),
-            Setting::Boundary(wanted.boundary),
-            Setting::Cleaning(wanted.cleaning),
-            Setting::MaxTriangles(wanted.max_triangles),
-            Setting::MaxMemory(wanted.max_memory),
-            Setting::MaxLevel(wanted.max_level),
+            Setting::Spacing(spacing),
+            Setting::LargestDiameter(h_max),
+            Setting::SmallestDiameter(h_min),
+            Setting::DiameterAtRiskOne(h_risk),
+            Setting::TransferShape(shape),
+            Setting::Gradation(gradation),
+            Setting::RefinementRule(rule),
+            Setting::Boundary(boundary),
+            Setting::Cleaning(cleaning),
+            Setting::MaxTriangles(max_triangles),
+            Setting::MaxMemory(max_memory),
+            Setting::MaxLevel(max_level),
         ];
         changes.into_iter().try_for_each(|change| {
             self.set(change)?;
