@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_io::io::recipe::LoadError;
-use meshbrush_io::io::{Flaw, KeyFault, KeyStep, Mark, ReadError, TextValue};
+use meshbrush_io::io::{FaultPart, Flaw, KeyFault, KeyStep, Mark, ReadError, TextValue};
 use pyo3::BoundObject;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -61,10 +61,10 @@ pub fn mistake_in(name: &str, formula: &str, mistake: &ParseError) -> PyErr {
 /// Returns the error for a value of a table that cannot be used. Of a formula it has the place of the
 /// mistake.
 pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
-    match (&fault.pointer, fault.position) {
-        (Some(pointer), Some(position)) => {
+    match fault.part.as_deref() {
+        Some(FaultPart { pointer, position }) => {
             let formula = text_at(tables, &fault.path).unwrap_or_default();
-            formula_error(without_table(fault).to_string(), pointer, formula, position)
+            formula_error(without_table(fault).to_string(), pointer, formula, *position)
         }
         _ if names_no_file(fault) => system_error(without_table(fault), Some(NOT_THERE)),
         _ => mesh_error(without_table(fault)),

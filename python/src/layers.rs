@@ -3,7 +3,7 @@
 use meshbrush_core::document::Setting;
 use meshbrush_core::layers::{Depths, Layer, LayerId};
 use meshbrush_core::paint::{Brush, Medium, Mirror};
-use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
+use meshbrush_io::io::layers::{SavedCombine, SavedKind, SavedLayer};
 use meshbrush_io::io::recipe::{BesideLayer, LoadedLayer, Loading};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -180,7 +180,7 @@ fn change_layers(state: &mut State, change: impl FnOnce(&mut Vec<Layer>)) -> PyR
 }
 
 fn row_of(layer: &Layer) -> LayerRow {
-    let kind = SavedLayer::of(layer, None).kind.word();
+    let kind = SavedKind::of(layer).word();
     let combine = match layer.combine.into() {
         SavedCombine::Finest => "finest",
         SavedCombine::Floor => "floor",

@@ -92,7 +92,7 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
 fn the_example_is_valid_and_uses_five_kinds() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/jacksboro.toml");
     let recipe = read(&path).unwrap();
-    let kinds: BTreeSet<&str> = recipe.settings.layer.iter().map(|layer| layer.kind.word()).collect();
+    let kinds: BTreeSet<&str> = recipe.settings.layer.iter().map(|layer| layer.kind().word()).collect();
     assert_eq!(kinds.len(), 5, "{kinds:?}");
 }
 

@@ -18,7 +18,6 @@ use meshbrush_core::domain::BoundaryMarks;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::geojson::{self, Outline};
-use meshbrush_io::io::layers::SavedLayer;
 use meshbrush_io::io::recipe::{self, Loaded, Loading, Recipe};
 use meshbrush_io::io::settings::{LoadingDefaults, SavedSettings, SavedTreatment};
 use meshbrush_io::io::shape_format;
@@ -96,12 +95,11 @@ impl Input {
     pub fn options_without_effect(&self, typed: &InputArguments) -> Vec<String> {
         // The layers and the domain of a project are not known yet.
         let is_known = self.project.is_none();
+        let has_risk = self.settings.layer.iter().any(|layer| layer.keys.is_risk());
         let unused = [
-            (is_known
-                && typed.transfer_shape.is_some()
-                && !self.settings.layer.iter().any(SavedLayer::is_risk))
-            .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
-            (is_known && typed.h_risk.is_some() && !self.settings.layer.iter().any(SavedLayer::is_risk))
+            (is_known && typed.transfer_shape.is_some() && !has_risk)
+                .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
+            (is_known && typed.h_risk.is_some() && !has_risk)
                 .then_some("--h-risk changes nothing without --risk or --risk-raster."),
             (is_known && typed.boundary.is_some() && self.settings.domain.outline_file().is_none())
                 .then_some("--boundary changes nothing without --region or --land."),

@@ -8,7 +8,10 @@ use super::args::{BoundaryArgument, EarthArguments, InputArguments};
 use super::failure::Failure;
 use super::lengths::LengthWithUnit;
 use meshbrush_core::field::Formula;
-use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedQuantity};
+use meshbrush_io::io::layers::{
+    FeatureSizeKeys, FormulaKeys, GridKeys, RasterKeys, ReadingKeys, SavedKind, SavedLayer, SavedQuantity,
+    StraitKeys, ThreatKeys, WidthKeys,
+};
 use meshbrush_io::io::settings::{
     METRES, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOpenings, SavedParts, SavedSettings,
     SavedTreatment,
@@ -107,8 +110,8 @@ fn region(typed: &InputArguments, layers: &[(String, SavedLayer)]) -> Result<Opt
     if typed.region.is_some() || !typed.water.outside_nodata || typed.recipe.is_some() {
         return Ok(typed.region.clone());
     }
-    let mut surfaces = layers.iter().rev().filter(|(_, layer)| layer.kind == SavedKind::Surface);
-    let file = surfaces.find_map(|(_, layer)| layer.file.clone());
+    let mut surfaces = layers.iter().rev().filter(|(_, layer)| layer.kind() == SavedKind::Surface);
+    let file = surfaces.find_map(|(_, layer)| layer.keys.file().map(Path::to_owned));
     let problem = "--outside-nodata needs a grid whose values make the domain: name it with --region, or with --surface";
     file.map(Some).ok_or_else(|| Failure::Usage(format!("{problem}.")))
 }
@@ -117,81 +120,73 @@ fn region(typed: &InputArguments, layers: &[(String, SavedLayer)]) -> Result<Opt
 /// top, each with its option as typed.
 fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> {
     let (diameter, risk) = (SavedQuantity::Diameter, SavedQuantity::Risk);
-    let mut layers = Vec::new();
+    let mut layers: Vec<(String, SavedLayer)> = Vec::new();
     for (option, texts, quantity) in [("--target", &typed.target, diameter), ("--risk", &typed.risk, risk)] {
         layers.extend(texts.iter().map(|text| {
             let formula =
                 Length::with_unit(text).map_or_else(|| text.clone(), |length| length.value.to_string());
-            let (quantity, formula) = (Some(quantity), Some(formula));
-            let layer = SavedLayer { quantity, formula, ..SavedLayer::of_kind(SavedKind::Formula) };
-            (option.to_owned(), layer)
+            (option.to_owned(), FormulaKeys { quantity, formula }.into())
         }));
     }
-    let of_file = |option: &str, kind, path: &Path| {
-        let layer = SavedLayer { file: Some(path.to_owned()), ..SavedLayer::of_kind(kind) };
-        (format!("{option} {}", path.display()), layer)
-    };
+    let with_file = |option: &str, path: &Path| format!("{option} {}", path.display());
     for (option, paths, quantity) in [
         ("--target-raster", &typed.target_raster, diameter),
         ("--risk-raster", &typed.risk_raster, risk),
         ("--error-raster", &typed.surfaces.error_raster, SavedQuantity::Error),
     ] {
         layers.extend(paths.iter().map(|path| {
-            let (option, layer) = of_file(option, SavedKind::Raster, path);
-            (option, SavedLayer { read_as: Some(quantity), ..layer })
+            let grid = GridKeys { file: Some(path.clone()), bounds: None };
+            let reading = ReadingKeys { read_as: Some(quantity), curve: None };
+            (with_file(option, path), RasterKeys { grid, reading }.into())
         }));
     }
-    layers.extend(typed.threats.iter().map(|path| of_file("--threats", SavedKind::Threats, path)));
+    layers.extend(typed.threats.iter().map(|path| {
+        let keys = ThreatKeys { file: Some(path.clone()), threats: None };
+        (with_file("--threats", path), keys.into())
+    }));
     layers.extend(typed.distances.layers(value(&typed.h_min))?);
     layers.extend(typed.water.depth_layers());
     let water = &typed.water;
-    let widths = [
-        ("--straits", SavedKind::Straits, water.straits, &water.widest_strait, "--widest-strait"),
-        (
-            "--feature-size",
-            SavedKind::FeatureSize,
-            water.feature_size,
-            &water.widest_feature,
-            "--widest-feature",
-        ),
-    ];
-    for (option, kind, across, widest, widest_option) in widths {
-        let of_water = OfWater { option, kind, widest: value(widest), widest_option };
-        layers.extend(of_water.layer(across, typed)?);
-    }
+    let straits = WaterWidths {
+        option: "--straits",
+        across: water.straits,
+        widest: value(&water.widest_strait),
+        widest_option: "--widest-strait",
+    };
+    let feature_size = WaterWidths {
+        option: "--feature-size",
+        across: water.feature_size,
+        widest: value(&water.widest_feature),
+        widest_option: "--widest-feature",
+    };
+    let straits = straits.keys(typed)?;
+    layers.extend(straits.map(|(option, widths)| (option, StraitKeys(widths).into())));
+    let feature_size = feature_size.keys(typed)?;
+    layers.extend(feature_size.map(|(option, widths)| (option, FeatureSizeKeys(widths).into())));
     layers.extend(typed.surfaces.layers());
     Ok(layers)
 }
 
 /// An option on the width of water.
-struct OfWater {
+struct WaterWidths {
     option: &'static str,
-    kind: SavedKind,
+    /// Triangles across, if the option is given.
+    across: Option<f64>,
     widest: Option<f64>,
     widest_option: &'static str,
 }
 
-impl OfWater {
-    /// Returns the layer of the option, with this many triangles across, if it is given.
-    fn layer(
-        &self,
-        across: Option<f64>,
-        typed: &InputArguments,
-    ) -> Result<Option<(String, SavedLayer)>, Failure> {
+impl WaterWidths {
+    /// Returns the option as typed, and the keys of its layer, if it is given.
+    fn keys(&self, typed: &InputArguments) -> Result<Option<(String, WidthKeys)>, Failure> {
+        let Self { option, across, widest, widest_option } = *self;
         let (Some(across), Some(h_min)) = (across, value(&typed.h_min)) else { return Ok(None) };
-        let Self { option, kind, widest, widest_option } = *self;
         let widest = widest.or(value(&typed.h_max).map(|h_max| across * h_max));
-        let widest = widest.ok_or_else(|| {
+        let width_to = widest.ok_or_else(|| {
             let problem = format!("the widest water is not known. Give it with {widest_option}, or --h-max");
             Failure::Usage(format!("{option} {across}: {problem}."))
         })?;
-        let layer = SavedLayer {
-            across: Some(across),
-            width_from: Some(across * h_min),
-            width_to: Some(widest),
-            ..SavedLayer::of_kind(kind)
-        };
-        Ok(Some((format!("{option} {across}"), layer)))
+        Ok(Some((format!("{option} {across}"), WidthKeys { across, width_from: across * h_min, width_to })))
     }
 }
 
@@ -213,7 +208,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
                     with("--distance-slope", typed.distances.distance_slope.map(|slope| slope.to_string()))
                 }
                 "range" => length("--distance-range", typed.distances.distance_range.as_ref()),
-                "width_to" if layers[*layer].1.kind == SavedKind::Straits => {
+                "width_to" if layers[*layer].1.kind() == SavedKind::Straits => {
                     length("--widest-strait", typed.water.widest_strait.as_ref())
                 }
                 "within" => with("--max-error", typed.surfaces.max_error.map(|error| error.to_string())),
@@ -246,7 +241,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
         },
         _ => return Failure::Usage(fault.to_string()),
     };
-    let pointer = fault.pointer.as_ref().map(|pointer| format!("\n    {}", pointer.replace('\n', "\n    ")));
+    let pointer = fault.part.as_ref().map(|part| format!("\n    {}", part.pointer.replace('\n', "\n    ")));
     Failure::Usage(format!("{option}: {}{}", fault.sentence, pointer.unwrap_or_default()))
 }
 

@@ -46,6 +46,15 @@ pub enum Mark {
     Entry,
 }
 
+/// The part of a value that is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FaultPart {
+    /// Two lines that point to it.
+    pub pointer: String,
+    /// Where in the value it begins, in characters.
+    pub position: usize,
+}
+
 /// A value that cannot be used: which one, and why.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{}{sentence}", KeyPath(path), given.as_deref().unwrap_or_default())]
@@ -59,17 +68,17 @@ pub struct KeyFault {
     pub given: Option<String>,
     /// A sentence with the mistake and what would help.
     pub sentence: String,
-    /// Two lines that point to a part of the value, as for a mistake in a formula.
-    pub pointer: Option<String>,
-    /// Where in the value that part begins, in characters.
-    pub position: Option<usize>,
+    /// The part of the value that is wrong, as for a mistake in a formula.
+    pub part: Option<Box<FaultPart>>,
+    /// The key that is missing, where that is the mistake.
+    pub missing: Option<&'static str>,
 }
 
 impl KeyFault {
     /// Returns a fault of the value whose path is still empty.
     pub(super) fn here(sentence: impl Into<String>) -> Self {
         let sentence = sentence.into();
-        Self { path: Vec::new(), mark: Mark::Value, given: None, sentence, pointer: None, position: None }
+        Self { path: Vec::new(), mark: Mark::Value, given: None, sentence, part: None, missing: None }
     }
 
     /// Returns the fault of a number that breaks a rule.
@@ -91,11 +100,8 @@ impl KeyFault {
     /// Returns the fault of a text whose formula has a mistake. The formula begins after `skipped` bytes.
     pub fn mistake(key: impl Into<KeyStep>, text: &str, skipped: usize, mistake: &ParseError) -> Self {
         let before = &text[..skipped + mistake.span().start];
-        Self {
-            pointer: Some(mistake.pointer().to_owned()),
-            position: Some(before.chars().count()),
-            ..Self::value(key, mistake.to_string())
-        }
+        let part = FaultPart { pointer: mistake.pointer().to_owned(), position: before.chars().count() };
+        Self { part: Some(Box::new(part)), ..Self::value(key, mistake.to_string()) }
     }
 
     /// Returns the fault of a key that should not be there.
@@ -176,7 +182,7 @@ impl Error for KeyFault {
     }
 
     fn missing_field(key: &'static str) -> Self {
-        Self::here(format!("the key `{key}` is missing here."))
+        Self { missing: Some(key), ..Self::here(format!("the key `{key}` is missing here.")) }
     }
 
     fn duplicate_field(key: &'static str) -> Self {

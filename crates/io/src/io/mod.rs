@@ -105,7 +105,7 @@ pub use claim::Claim;
 pub use coordinate_system::{CoordinateKind, CoordinateSystem};
 pub use coordinates::{DocumentPlane, FileCoordinates};
 pub use error::{Flaw, PlaceInFile, ReadError};
-pub use fault::{KeyFault, KeyStep, Mark, nearest_word};
+pub use fault::{FaultPart, KeyFault, KeyStep, Mark, nearest_word};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use format_spec::{
     FileGrid, FormatSpec, GridPlace, GridWindow, RasterFormatSpec, ReadRaster, ThirdCoordinate, TypicalSize,

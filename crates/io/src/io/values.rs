@@ -82,7 +82,7 @@ impl TextValue {
         }
     }
 
-    fn refused<T>(&self, expected: impl fmt::Display) -> Result<T, KeyFault> {
+    pub(super) fn refused<T>(&self, expected: impl fmt::Display) -> Result<T, KeyFault> {
         Err(KeyFault::not_a(expected, self.unexpected()))
     }
 

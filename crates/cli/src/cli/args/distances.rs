@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 
 use crate::cli::failure::Failure;
 use meshbrush_core::domain::BoundaryType;
-use meshbrush_io::io::layers::{SavedKind, SavedLayer};
+use meshbrush_io::io::layers::{BoundaryKeys, DistanceKeys, GrowthKeys, SavedLayer, ShapeKeys, TargetKeys};
 use meshbrush_mesh::text::Length;
 
 /// Growth of the target diameter by unit of distance, unless an option says otherwise.
@@ -56,26 +56,28 @@ impl DistanceArguments {
     /// Fails when there is no such type, or nothing says what the target diameter is at distance 0.
     pub fn layers(&self, h_min: Option<f64>) -> Result<Vec<(String, SavedLayer)>, Failure> {
         let of_file = |path: &PathBuf| {
-            let layer = SavedLayer { file: Some(path.clone()), ..distance() };
-            (format!("--distance {}", path.display()), layer)
+            let shapes = ShapeKeys { file: Some(path.clone()), shapes: None };
+            (format!("--distance {}", path.display()), TargetKeys { shapes, ..TargetKeys::default() })
         };
-        let mut layers: Vec<_> = self.distance.iter().map(of_file).collect();
-        layers.extend(self.pieces()?);
-        for (option, layer) in &mut layers {
+        let layer = |(option, target): (String, TargetKeys)| {
             let at_zero = self.distance_at_zero.as_ref().map(|length| length.value).or(h_min);
-            layer.at_zero = Some(at_zero.ok_or_else(|| {
+            let at_zero = at_zero.ok_or_else(|| {
                 let problem =
                     "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
                 Failure::Usage(format!("{option}: {problem}."))
-            })?);
-            layer.slope = Some(self.distance_slope.unwrap_or(DEFAULT_SLOPE));
-            layer.range = self.distance_range.as_ref().map(|length| length.value);
-        }
-        Ok(layers)
+            })?;
+            let growth = GrowthKeys {
+                at_zero,
+                slope: self.distance_slope.unwrap_or(DEFAULT_SLOPE),
+                range: self.distance_range.as_ref().map(|length| length.value),
+            };
+            Ok((option, DistanceKeys { target, growth }.into()))
+        };
+        self.distance.iter().map(of_file).chain(self.pieces()?).map(layer).collect()
     }
 
-    /// Returns the layer of the distance to pieces of the boundary, without its numbers.
-    fn pieces(&self) -> Result<Option<(String, SavedLayer)>, Failure> {
+    /// Returns the pieces of the boundary that a distance is measured to.
+    fn pieces(&self) -> Result<Option<(String, TargetKeys)>, Failure> {
         let (names, words) = (&self.distance_to_piece, &self.distance_to_type);
         let named = names.first().map(|name| ("--distance-to-piece", name));
         let Some((option, first)) = named.or(words.first().map(|word| ("--distance-to-type", word))) else {
@@ -87,15 +89,11 @@ impl DistanceArguments {
             BoundaryType::from_word(word).map(Into::into).ok_or_else(refused)
         };
         let types = words.iter().map(of_word).collect::<Result<Vec<_>, _>>()?;
-        let layer = SavedLayer {
+        let boundary = BoundaryKeys {
+            to: None,
             pieces: (!names.is_empty()).then(|| names.clone()),
             types: (!types.is_empty()).then_some(types),
-            ..distance()
         };
-        Ok(Some((format!("{option} {first}"), layer)))
+        Ok(Some((format!("{option} {first}"), TargetKeys { boundary, ..TargetKeys::default() })))
     }
-}
-
-fn distance() -> SavedLayer {
-    SavedLayer::of_kind(SavedKind::Distance)
 }

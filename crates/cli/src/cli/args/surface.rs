@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use meshbrush_io::io::RasterFormat;
-use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedNorm};
+use meshbrush_io::io::layers::{GoalKeys, GridKeys, SavedLayer, SavedNorm, SurfaceKeys};
 
 /// A surface, and how close the mesh is to be to it.
 #[derive(Debug, Args)]
@@ -81,14 +81,14 @@ impl SurfaceArguments {
     pub fn layers(&self) -> impl Iterator<Item = (String, SavedLayer)> {
         self.surface.iter().rev().map(|text| {
             let is_raster = RasterFormat::from_path(Path::new(text)).is_ok();
-            let layer = SavedLayer {
-                file: is_raster.then(|| PathBuf::from(text)),
+            let file = is_raster.then(|| PathBuf::from(text));
+            let goal = GoalKeys {
                 formula: (!is_raster).then(|| text.clone()),
-                norm: self.norm.saved(),
                 within: self.max_error,
                 at_most: self.at_most,
-                ..SavedLayer::of_kind(SavedKind::Surface)
+                norm: self.norm.saved(),
             };
+            let layer = SurfaceKeys { grid: GridKeys { file, bounds: None }, goal }.into();
             (format!("--surface {text}"), layer)
         })
     }

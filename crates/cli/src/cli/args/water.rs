@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 
-use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
+use meshbrush_io::io::layers::{
+    CourantKeys, DatumKeys, DepthKeys, DepthSizeKeys, GridKeys, SavedCombine, SavedLayer, SavedPositive,
+    SharedKeys, SlopeKeys, WavelengthKeys,
+};
 use meshbrush_mesh::text::{Length, LengthUnit, area};
 
 /// The period of the semidiurnal lunar tide (M2), in seconds.
@@ -140,45 +143,50 @@ impl WaterArguments {
     /// Returns the layers of the options, from the bottom of the stack to its top, each with its option as
     /// typed. The last file is the lowest.
     pub fn depth_layers(&self) -> Vec<(String, SavedLayer)> {
+        let finest = SavedCombine::Finest;
+        let courant = |number: Option<f64>| {
+            let (time_step, courant) = self.time_step.zip(number)?;
+            Some(DepthSizeKeys::Courant(CourantKeys { time_step, courant }))
+        };
         let rules = [
             self.per_wavelength.map(|triangles| {
-                let period = Some(self.period.unwrap_or(TIDE));
-                let size = Some(SavedDepthSize::Wavelength);
-                ("--per-wavelength", SavedLayer { size, period, triangles: Some(triangles), ..depths() })
+                let period = self.period.unwrap_or(TIDE);
+                let size = DepthSizeKeys::Wavelength(WavelengthKeys { period, triangles });
+                ("--per-wavelength", size, finest)
             }),
             self.per_slope.map(|triangles| {
-                let (size, smoothing) =
-                    (Some(SavedDepthSize::Slope), self.smoothing.as_ref().map(|side| side.value));
-                ("--per-slope", SavedLayer { size, triangles: Some(triangles), smoothing, ..depths() })
+                let smoothing = self.smoothing.as_ref().map(|side| side.value);
+                ("--per-slope", DepthSizeKeys::Slope(SlopeKeys { triangles, smoothing }), finest)
             }),
-            self.min_courant.map(|number| ("--min-courant", self.courant(number, SavedCombine::Finest))),
+            courant(self.min_courant).map(|size| ("--min-courant", size, finest)),
             // A floor counts for all layers below it.
-            self.max_courant.map(|number| ("--max-courant", self.courant(number, SavedCombine::Floor))),
+            courant(self.max_courant).map(|size| ("--max-courant", size, SavedCombine::Floor)),
         ];
         let files = || self.depth.iter().enumerate().rev();
-        let offset = |number: usize| self.depth_offset.get(number).or(self.depth_offset.last()).copied();
-        let of_file = |layer: &SavedLayer, (number, file): (usize, &PathBuf)| SavedLayer {
-            file: Some(file.clone()),
-            positive: self.depth_positive.map(Into::into),
-            offset: offset(number),
-            ..layer.clone()
-        };
-        let nodes = files().map(|file| (format!("--depth {}", file.1.display()), of_file(&depths(), file)));
-        let sizes = rules.iter().flatten();
-        let sizes = sizes.flat_map(|(option, layer)| {
-            files().map(move |file| ((*option).to_owned(), of_file(layer, file)))
+        let nodes = files().map(|file| {
+            let layer = self.depths(file, DepthSizeKeys::Nothing, finest);
+            (format!("--depth {}", file.1.display()), layer)
+        });
+        let sizes = rules.iter().flatten().flat_map(|(option, size, combine)| {
+            files().map(move |file| ((*option).to_owned(), self.depths(file, size.clone(), *combine)))
         });
         nodes.chain(sizes).collect()
     }
 
-    fn courant(&self, number: f64, combine: SavedCombine) -> SavedLayer {
-        let (size, time_step) = (Some(SavedDepthSize::Courant), self.time_step);
-        SavedLayer { size, time_step, courant: Some(number), combine, ..depths() }
+    /// Returns the layer of a file of depths, by its place among all.
+    fn depths(
+        &self,
+        (number, file): (usize, &PathBuf),
+        size: DepthSizeKeys,
+        combine: SavedCombine,
+    ) -> SavedLayer {
+        let grid = GridKeys { file: Some(file.clone()), bounds: None };
+        let offset = self.depth_offset.get(number).or(self.depth_offset.last()).copied();
+        let datum = DatumKeys { positive: self.depth_positive.map(Into::into), offset };
+        let keys = DepthKeys { grid, datum, size, ..DepthKeys::default() };
+        let shared = SharedKeys { combine, ..SharedKeys::default() };
+        SavedLayer { shared, ..keys.into() }
     }
-}
-
-fn depths() -> SavedLayer {
-    SavedLayer::of_kind(SavedKind::Depth)
 }
 
 impl From<PositiveArgument> for SavedPositive {

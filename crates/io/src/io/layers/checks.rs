@@ -1,9 +1,16 @@
 //! Checks of single values. The path of a fault begins at the value.
 
+use std::path::PathBuf;
+
 use glam::DVec2;
 
 use crate::io::KeyFault;
+use meshbrush_core::field::Formula;
+use meshbrush_core::field::formula::ParseError;
 use meshbrush_mesh::geometry::Rect;
+
+/// Finds a file by the name that a text gives it. Errors are sentences.
+pub type FindFile<'a> = dyn Fn(&str) -> Result<PathBuf, String> + 'a;
 
 /// Returns a length in world units.
 ///
@@ -72,4 +79,29 @@ pub fn rings(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Vec<DVec2>>, KeyFault> {
         points(&ring[..ring.len() - usize::from(closed)], 3, "a ring")
     };
     rings.iter().map(open).collect()
+}
+
+/// Compiles a formula, as `parse` does.
+///
+/// # Errors
+/// Fails with the lines that point at the mistake.
+pub fn compiled(
+    key: &'static str,
+    text: &str,
+    parse: fn(&str) -> Result<Formula, ParseError>,
+) -> Result<Formula, KeyFault> {
+    parse(text).map_err(|mistake| KeyFault::mistake(key, text, 0, &mistake))
+}
+
+/// Checks each entry of a list.
+///
+/// # Errors
+/// Fails for the first one that cannot be used, with its place in the list.
+pub fn each<T, U>(
+    key: &'static str,
+    list: &[T],
+    check: impl Fn(&T) -> Result<U, KeyFault>,
+) -> Result<Vec<U>, KeyFault> {
+    let checked = |(index, entry)| check(entry).map_err(|fault| fault.within(index).within(key));
+    list.iter().enumerate().map(checked).collect()
 }

@@ -3,13 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::check_layer::{CheckedKind, CheckedShapes, Growth, Stored};
-use super::{LoadedRaster, SavedLayer};
-use crate::io::{KeyFault, ValueFacts, ValueUnit};
+use super::{LoadedRaster, SavedLayer, SharedKeys};
+use crate::io::{KeyFault, ValueFacts};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    BandLayer, DepthSizes, Depths, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
-    RasterLayer, RasterSource, ShapeList, Shapes, Surface, SurfaceSource, Threat, Threats,
+    DepthSizes, Layer, LayerId, LayerKind, Mask, PositiveDepth, RasterSource, ShapeList, Shapes, Surface,
+    SurfaceSource, Threat, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::text::abridged;
@@ -45,6 +44,16 @@ fn heights(source: RasterSource) -> RasterSource {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", abridged(_0))]
 pub struct TextError(pub String);
+
+/// Where the data of a layer are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stored {
+    /// In files, or in place.
+    InFiles,
+    /// In the project that the layer belongs to: pixels and paint in parts, everything else in place. `file`
+    /// is only a name for a person.
+    InProject,
+}
 
 /// The source of the data that layers name: files, or the parts of a project.
 pub trait LayerData {
@@ -92,94 +101,26 @@ impl SavedLayer {
     /// Fails with the errors of `data`; when a value cannot be used; and a sentence that names the layer when
     /// its data cannot be used.
     pub fn load<D: LayerData>(&self, id: LayerId, data: &mut D) -> Result<Layer, D::Error> {
-        let kind = match self.checked(D::STORED)? {
-            CheckedKind::Complete(kind) => kind,
-            CheckedKind::Raster(reading) => {
-                LayerKind::Raster(RasterLayer { source: self.source(data)?.0, reading })
-            }
-            CheckedKind::Threats(Some(list)) => LayerKind::Threats(self.indexed_threats(list)?),
-            CheckedKind::Threats(None) => LayerKind::Threats(data.threats(self)?),
-            CheckedKind::Distance(to, Growth { at_zero, slope, range }) => {
-                let to = match self.target_of(to, data)? {
-                    Ok(shapes) => DistanceTo::Shapes { name: self.file_name(), shapes },
-                    Err(boundary) => boundary,
-                };
-                LayerKind::Distance(DistanceLayer { to, at_zero, slope, range })
-            }
-            CheckedKind::Corridor(along, Growth { at_zero, slope, range }, width) => {
-                let to = match self.target_of(along, data)? {
-                    Ok(lines) => DistanceTo::Corridor { lines, width },
-                    Err(boundary) => boundary,
-                };
-                LayerKind::Distance(DistanceLayer { to, at_zero, slope, range })
-            }
-            CheckedKind::Band(between, diameter) => {
-                LayerKind::Band(BandLayer { source: self.source(data)?.0, between, diameter })
-            }
-            CheckedKind::Surface(goal, norm) => {
-                let (source, facts) = self.source(data)?;
-                let source = SurfaceSource::Raster(source);
-                in_direction(LayerKind::Surface(Surface { source, goal, norm }), facts.positive)
-            }
-            CheckedKind::Depth(sizes) => {
-                let (source, facts) = self.source(data)?;
-                let positive = self.direction(&facts, data).unwrap_or(sizes.positive);
-                LayerKind::Depth(Depths::new(source, DepthSizes { positive, ..sizes }))
-            }
-        };
-        let (visible, locked, combine) = (self.visible, self.locked, self.combine.into());
+        self.check(D::STORED)?;
+        let kind = self.keys.load(self, data)?;
+        let SharedKeys { visible, locked, combine, .. } = self.shared;
         let mask = self.loaded_mask(data)?;
-        Ok(Layer { id, name: self.shown_name().to_owned(), visible, locked, combine, mask, kind })
+        let (name, combine) = (self.shown_name().to_owned(), combine.into());
+        Ok(Layer { id, name, visible, locked, combine, mask, kind })
     }
 
-    /// Returns the file with its data; empty without one.
-    pub fn path(&self) -> &Path {
-        self.file.as_deref().unwrap_or(Path::new(""))
-    }
-
-    fn source<D: LayerData>(&self, data: &mut D) -> Result<(RasterSource, ValueFacts), D::Error> {
+    /// Returns its raster, and what the file says about its values.
+    pub(super) fn raster_source<D: LayerData>(
+        &self,
+        data: &mut D,
+    ) -> Result<(RasterSource, ValueFacts), D::Error> {
         let LoadedRaster { raster, facts, .. } = data.raster(self)?;
         facts.notes.iter().for_each(|note| data.note(format!("{}: {note}", self.file_name())));
         Ok((RasterSource { name: self.file_name(), raster }, facts))
     }
 
-    /// Returns the direction in which depths grow, as the file says it where the layer does not, and tells a
-    /// person what does not suit depths.
-    fn direction<D: LayerData>(&self, facts: &ValueFacts, data: &mut D) -> Option<PositiveDepth> {
-        if let ValueUnit::Other(unit) = &facts.unit {
-            let problem = "its values are taken as metres, and it says that their unit is";
-            data.note(format!("{}: {problem} “{unit}”.", self.file_name()));
-        }
-        let own = facts.positive?;
-        let given = self.positive.map(PositiveDepth::from);
-        if given.is_some_and(|given| given != own) {
-            let [said, other] = match own {
-                PositiveDepth::Down => ["depths, positive downwards", "heights"],
-                PositiveDepth::Up => ["heights, positive upwards", "depths"],
-            };
-            data.note(format!(
-                "{}: its values are taken as {other}, as `positive` says; the file says that they are {said}.",
-                self.file_name()
-            ));
-        }
-        given.or(Some(own))
-    }
-
-    /// Returns the shapes of a distance, or the boundary of the domain that it is to.
-    fn target_of<D: LayerData>(
-        &self,
-        to: CheckedShapes,
-        data: &mut D,
-    ) -> Result<Result<Shapes, DistanceTo>, D::Error> {
-        match to {
-            CheckedShapes::Boundary(to) => Ok(Err(to)),
-            CheckedShapes::File => data.shapes(self).map(Ok),
-            CheckedShapes::InPlace(list) => Ok(Ok(self.indexed_shapes(list)?)),
-        }
-    }
-
     fn loaded_mask<D: LayerData>(&self, data: &mut D) -> Result<Option<Mask>, D::Error> {
-        match (self.mask_in_place()?, &self.mask_file) {
+        match (self.mask_in_place()?, &self.shared.mask_file) {
             (Some(polygons), _) => Ok(Some(self.mask_of_polygons(&polygons)?)),
             (None, Some(file)) => data.mask(self, file).map(Some),
             (None, None) => Ok(None),

@@ -1,15 +1,30 @@
 use std::path::Path;
+use std::sync::Arc;
 
 use super::*;
-use crate::io::KeyFault;
-use meshbrush_core::layers::{LayerId, Mask, Shapes, Threats};
+use glam::DVec2;
+
+use crate::io::{KeyFault, TextValue};
+use meshbrush_core::layers::{
+    BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, FormulaLayer, Layer, LayerId,
+    LayerKind, Mask, PositiveDepth, Quantity, ShapeList, Shapes, Threat, ThreatLaw, Threats,
+};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
 
 fn saved(json: &str) -> SavedLayer {
     serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"))
 }
 
-fn checked(json: &str) -> Result<CheckedKind, String> {
-    saved(json).checked(Stored::InFiles).map_err(|fault| fault.to_string())
+fn checked(json: &str) -> Result<SavedLayer, String> {
+    let table: TextValue = serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"));
+    let layer = SavedLayer::of_table(table);
+    let layer = layer.and_then(|layer| layer.check(Stored::InFiles).map(|()| layer));
+    layer.map_err(|fault| fault.to_string())
+}
+
+fn loaded(json: &str) -> LayerKind {
+    checked(json).unwrap().load(LayerId(0), &mut InMemory).unwrap().kind
 }
 
 #[test]
@@ -17,58 +32,63 @@ fn every_kind_is_read_from_its_keys() {
     let full = r#"{ "kind": "formula", "quantity": "risk", "formula": "x", "name": "Storm", "visible": false,
         "locked": true, "combine": "replace", "mask": [[[[0, 0], [4, 0], [4, 3], [0, 0]]]] }"#;
     let layer = saved(full);
-    assert_eq!((layer.shown_name(), layer.visible, layer.locked), ("Storm", false, true));
-    assert_eq!(layer.combine, SavedCombine::Replace);
+    assert_eq!((layer.shown_name(), layer.shared.visible, layer.shared.locked), ("Storm", false, true));
+    assert_eq!(layer.shared.combine, SavedCombine::Replace);
     let polygons = layer.mask_in_place().unwrap().unwrap();
     assert_eq!(polygons[0][0].len(), 3, "the repeated first point is removed");
     for (json, expected) in [
-        (
-            r#"{ "kind": "paint", "quantity": "diameter" }"#,
-            "Complete(Paint(PaintLayer { quantity: Diameter }))",
-        ),
-        (
-            r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#,
-            "Threats(Some([Threat { at: DVec2(1.0, 2.0), range: 3.0, peak: 1.0, law: Radar }]))",
-        ),
-        (r#"{ "kind": "threats", "file": "a.csv" }"#, "Threats(None)"),
+        (r#"{ "kind": "paint", "quantity": "diameter" }"#, "Paint(PaintLayer { quantity: Diameter })"),
         (
             r#"{ "kind": "distance", "to": "outline", "at_zero": 0.1, "slope": 0.2 }"#,
-            "Distance(Boundary(Outline), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
+            "Distance(DistanceLayer { to: Outline, at_zero: 0.1, slope: 0.2, range: inf })",
         ),
         (
             r#"{ "kind": "distance", "to": "coasts", "at_zero": 0.1, "slope": 0.2 }"#,
-            "Distance(Boundary(Coasts), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
+            "Distance(DistanceLayer { to: Coasts, at_zero: 0.1, slope: 0.2, range: inf })",
         ),
         (
-            r#"{ "kind": "distance", "pieces": ["Rock"], "types": ["land", "no-slip inflow"], "at_zero": 0.1, "slope": 0.2 }"#,
-            "Distance(Boundary(Pieces(PieceChoice { names: [\"Rock\"], types: [Land, NoSlipInflow] })), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
-        ),
-        (
-            r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,
-            "Distance(InPlace(ShapeList { points: [DVec2(1.0, 2.0)], lines: [], polygons: [] }), Growth { at_zero: 0.1, slope: 0.0, range: 5.0 })",
-        ),
-        (
-            r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#,
-            "Band([-20.0, 0.0], 0.5)",
-        ),
-        (
-            r#"{ "kind": "depth", "file": "depth.asc" }"#,
-            "Depth(DepthSizes { positive: Up, offset: 0.0, between: [0.0, inf], rule: Nothing })",
-        ),
-        (
-            r#"{ "kind": "depth", "file": "d.asc", "positive": "down", "size": "wavelength", "period": 10, "triangles": 8,
-                 "offset": -1.5, "depth_to": 50 }"#,
-            "Depth(DepthSizes { positive: Down, offset: -1.5, between: [0.0, 50.0], rule: Wavelength { period: 10.0, triangles: 8.0 } })",
+            r#"{ "kind": "distance", "pieces": ["Rock"], "types": ["land", "no-slip inflow"], "at_zero": 0.1, "slope": 0.2, "range": 5 }"#,
+            "Distance(DistanceLayer { to: Pieces(PieceChoice { names: [\"Rock\"], types: [Land, NoSlipInflow] }), at_zero: 0.1, slope: 0.2, range: 5.0 })",
         ),
     ] {
-        assert_eq!(format!("{:?}", checked(json).unwrap()), expected, "{json}");
+        assert_eq!(format!("{:?}", loaded(json)), expected, "{json}");
     }
+    let threats = loaded(r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#);
+    let threat = Threat { at: DVec2::new(1.0, 2.0), range: 3.0, peak: 1.0, law: ThreatLaw::Radar };
+    assert_eq!(threats.get::<Threats>().unwrap().list(), [threat]);
+    let json =
+        r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#;
+    let to_shapes = loaded(json);
+    let shapes = to_shapes.get::<DistanceLayer>().unwrap().to.shapes().unwrap();
+    assert_eq!(shapes.list(), &ShapeList { points: vec![DVec2::new(1.0, 2.0)], ..ShapeList::default() });
+    let band = loaded(r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#);
+    let band = band.get::<BandLayer>().unwrap();
+    assert_eq!((&*band.source.name, band.between, band.diameter), ("depth.asc", [-20.0, 0.0], 0.5));
+    let nothing = DepthSizes {
+        positive: PositiveDepth::Up,
+        offset: 0.0,
+        between: [0.0, f64::INFINITY],
+        rule: DepthRule::Nothing,
+    };
+    let depths = loaded(r#"{ "kind": "depth", "file": "depth.asc" }"#);
+    assert_eq!(depths.get::<Depths>().unwrap().sizes(), &nothing);
+    let depths = loaded(
+        r#"{ "kind": "depth", "file": "d.asc", "positive": "down", "size": "wavelength", "period": 10,
+            "triangles": 8, "offset": -1.5, "depth_to": 50 }"#,
+    );
+    let expected = DepthSizes {
+        positive: PositiveDepth::Down,
+        offset: -1.5,
+        between: [0.0, 50.0],
+        rule: DepthRule::Wavelength { period: 10.0, triangles: 8.0 },
+    };
+    assert_eq!(depths.get::<Depths>().unwrap().sizes(), &expected);
 }
 
 #[test]
 fn a_layer_is_saved_as_it_was_read() {
     for json in [
-        r#"{"kind":"formula","name":"A","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x"}"#,
+        r#"{"name":"A","kind":"formula","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x"}"#,
         r#"{"kind":"threats","mask_file":"m.geojson","threats":[{"x":1.0,"y":2.0,"range":3.0,"peak":0.5,"law":"disc"}]}"#,
         r#"{"kind":"raster","file":"r.png","bounds":[0.0,0.0,1.0,2.0],"as":"risk"}"#,
         r#"{"kind":"distance","to":"outline","at_zero":0.1,"slope":0.2,"range":3.0}"#,
@@ -182,41 +202,67 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
     }
 }
 
-/// Every key of every kind is a key of the table, and each kind refuses the keys of the others.
+/// A text of each kind, with all keys that it can have at a time.
+const FULL: [&str; 14] = [
+    r#"{"kind":"paint","quantity":"risk","file":"a.meshbrush","layer":"Storm"}"#,
+    r#"{"kind":"formula","quantity":"risk","formula":"x"}"#,
+    r#"{"kind":"raster","file":"a.asc","bounds":[0.0,0.0,1.0,2.0],"as":"risk"}"#,
+    r#"{"kind":"raster","file":"a.asc","bounds":[0.0,0.0,1.0,2.0],"curve":[[0.0,1.0]]}"#,
+    r#"{"kind":"threats","threats":[{"x":1.0,"y":2.0,"range":3.0,"peak":0.5,"law":"disc"}]}"#,
+    r#"{"kind":"distance","to":"outline","at_zero":0.1,"slope":0.2,"range":3.0}"#,
+    r#"{"kind":"distance","pieces":["Rock"],"types":["land"],"at_zero":0.1,"slope":0.2}"#,
+    r#"{"kind":"corridor","shapes":[{"line":[[0.0,0.0],[1.0,1.0]]}],"width":0.3,"at_zero":0.1,"slope":0.2}"#,
+    r#"{"kind":"band","file":"a.asc","bounds":[0.0,0.0,1.0,2.0],"between":[0.0,1.0],"diameter":2.0}"#,
+    r#"{"kind":"depth","file":"a.asc","positive":"up","offset":1.0,"size":"slope","triangles":8.0,"smoothing":2.0,"depth_from":1.0,"depth_to":9.0}"#,
+    r#"{"kind":"depth","file":"a.asc","size":"courant","time_step":1.0,"courant":0.7}"#,
+    r#"{"kind":"straits","across":3.0,"width_from":1.0,"width_to":2.0}"#,
+    r#"{"kind":"feature-size","across":3.0,"width_from":1.0,"width_to":2.0}"#,
+    r#"{"kind":"surface","formula":"x","within":0.1,"norm":"l2"}"#,
+];
+
+/// Each kind refuses the keys of the others, and names those of its own.
 #[test]
 fn the_kinds_and_their_keys_agree() {
-    use super::SavedKind::*;
-    let all =
-        [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits, FeatureSize, Surface];
-    let value = |key: &str| match key {
-        "quantity" | "as" => r#""risk""#,
-        "formula" => r#""x""#,
-        "to" => r#""outline""#,
-        "bounds" => "[0, 0, 1, 1]",
-        "curve" => "[[0, 1]]",
-        "threats" | "shapes" => "[]",
-        "between" => "[0, 1]",
-        "positive" => r#""up""#,
-        "size" => r#""slope""#,
-        "norm" => r#""l2""#,
-        "file" | "layer" => r#""a""#,
-        "pieces" => r#"["a"]"#,
-        "types" => r#"["land"]"#,
-        _ => "1",
+    let all: Vec<&str> = SavedKind::ALL.iter().flat_map(|kind| kind.keys()).collect();
+    for text in FULL {
+        let layer = checked(text).unwrap_or_else(|message| panic!("{text}: {message}"));
+        assert_eq!(serde_json::to_string(&layer).unwrap(), text);
+        let own = layer.kind().keys();
+        for key in all.iter().filter(|key| !own.contains(key)) {
+            let message = checked(&text.replacen('{', &format!("{{\"{key}\":1,"), 1)).unwrap_err();
+            let word = layer.kind().word();
+            let expected = format!("{key}: a layer of the kind \"{word}\" has no `{key}`; its own keys are ");
+            assert!(message.starts_with(&expected), "{message}");
+        }
+    }
+    let kinds = FULL.map(|text| checked(text).unwrap().kind().word());
+    assert!(SavedKind::ALL.iter().all(|kind| kinds.contains(&kind.word())));
+}
+
+#[test]
+fn advice_on_an_unknown_key_names_only_keys_of_its_kind() {
+    let sentence = |kind: &str, key: &str| {
+        let json = format!(r#"{{ "kind": "{kind}", "{key}": 1 }}"#);
+        checked(&json).unwrap_err()
     };
-    for key in all.iter().flat_map(|kind| kind.keys()) {
-        for kind in all {
-            let json = format!(r#"{{ "kind": "{}", "{key}": {} }}"#, kind.word(), value(key));
-            assert_eq!(saved(&json).given().collect::<Vec<_>>(), [*key]);
-            let refused = checked(&json).is_err_and(|message| message.contains(&format!("has no `{key}`")));
-            assert_eq!(refused, !kind.keys().contains(key), "{json}");
+    let raster = sentence("raster", "boundz");
+    assert!(raster.starts_with("boundz: there is no key `boundz` here"), "{raster}");
+    assert!(raster.ends_with("did you mean `bounds`?"), "{raster}");
+    let formula = sentence("formula", "boundz");
+    let keys = "name, kind, visible, locked, combine, mask, mask_file, quantity, formula.";
+    assert!(formula.ends_with(&format!("the keys here are {keys}")), "{formula}");
+    for kind in SavedKind::ALL {
+        for key in kind.keys() {
+            let wrong = sentence(kind.word(), &format!("{key}z"));
+            let Some((_, advice)) = wrong.split_once("did you mean `") else { continue };
+            let advice = advice.trim_end_matches("`?");
+            assert!(kind.keys().contains(&advice) || keys.contains(advice), "{kind:?}: {advice}");
         }
     }
 }
 
 #[test]
 fn a_layer_of_a_stack_is_saved() {
-    use meshbrush_core::layers::{Combine, FormulaLayer, Layer, LayerKind, Quantity};
     let formula = meshbrush_core::field::Formula::parse("x + 1").unwrap();
     let kind = LayerKind::Formula(FormulaLayer { quantity: Quantity::Diameter, formula });
     let layer = Layer {
@@ -228,8 +274,8 @@ fn a_layer_of_a_stack_is_saved() {
         combine: Combine::Floor,
         kind,
     };
-    let json = serde_json::to_string(&SavedLayer::of(&layer, None)).unwrap();
-    let expected = r#"{"kind":"formula","name":"Open sea","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x + 1"}"#;
+    let json = serde_json::to_string(&SavedLayer::of(&layer, None, ListsInPlace::ALL)).unwrap();
+    let expected = r#"{"name":"Open sea","kind":"formula","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x + 1"}"#;
     assert_eq!(json, expected);
     assert_eq!(saved(&json).load(layer.id, &mut InMemory).unwrap(), layer);
 }
@@ -243,7 +289,8 @@ impl LayerData for InMemory {
     const STORED: Stored = Stored::InFiles;
 
     fn raster(&mut self, _: &SavedLayer) -> Result<LoadedRaster, Fault> {
-        unreachable!("no layer has a raster")
+        let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 1.0, 2.0, 3.0]);
+        Ok(Arc::new(RasterPyramid::new(raster)).into())
     }
 
     fn threats(&mut self, _: &SavedLayer) -> Result<Threats, Fault> {
@@ -286,7 +333,7 @@ fn a_layer_is_the_same_when_its_text_is_read() {
         r#"{"kind":"paint","name":"P","quantity":"risk"}"#,
     ] {
         let layer = saved(json).load(LayerId(7), &mut InMemory).unwrap();
-        let again = SavedLayer::of(&layer, None).load(LayerId(7), &mut InMemory).unwrap();
+        let again = SavedLayer::of(&layer, None, ListsInPlace::ALL).load(LayerId(7), &mut InMemory).unwrap();
         assert_eq!(again, layer, "{json}");
     }
 }

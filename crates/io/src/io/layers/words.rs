@@ -4,35 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use meshbrush_core::layers::{Combine, DistanceTo, PositiveDepth, Quantity, SurfaceNorm};
 
-/// The kinds of layers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedKind {
-    /// Paint.
-    Paint,
-    /// A formula in x and y.
-    Formula,
-    /// Values by pixel.
-    Raster,
-    /// Points with a range.
-    Threats,
-    /// The distance to shapes.
-    Distance,
-    /// The distance to a strip along lines.
-    Corridor,
-    /// One diameter where a raster's value lies between two numbers.
-    Band,
-    /// Depths of water.
-    Depth,
-    /// Triangles across straits.
-    Straits,
-    /// Triangles across the water.
-    #[serde(rename = "feature-size")]
-    FeatureSize,
-    /// A surface that the mesh is to be close to.
-    Surface,
-}
-
 /// See [`Combine`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -111,10 +82,11 @@ pub enum SavedPositive {
 }
 
 /// How the depth decides the target diameter. See [`DepthRule`](meshbrush_core::layers::DepthRule).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SavedDepthSize {
     /// It does not.
+    #[default]
     Nothing,
     /// Triangles in the length of a wave.
     Wavelength,
@@ -127,16 +99,6 @@ pub enum SavedDepthSize {
 impl SavedDepthSize {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Nothing, Self::Wavelength, Self::Slope, Self::Courant];
-
-    /// Returns the keys of this rule alone.
-    pub fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Nothing => &[],
-            Self::Wavelength => &["period", "triangles"],
-            Self::Slope => &["triangles", "smoothing"],
-            Self::Courant => &["time_step", "courant"],
-        }
-    }
 
     /// Returns the word.
     pub fn word(self) -> &'static str {
@@ -196,86 +158,6 @@ impl From<SavedDistanceTo> for DistanceTo {
         match to {
             SavedDistanceTo::Outline => Self::Outline,
             SavedDistanceTo::Coasts => Self::Coasts,
-        }
-    }
-}
-
-impl SavedKind {
-    /// All kinds.
-    pub const ALL: [Self; 11] = [
-        Self::Paint,
-        Self::Formula,
-        Self::Raster,
-        Self::Threats,
-        Self::Distance,
-        Self::Corridor,
-        Self::Band,
-        Self::Depth,
-        Self::Straits,
-        Self::FeatureSize,
-        Self::Surface,
-    ];
-
-    /// Returns the word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Paint => "paint",
-            Self::Formula => "formula",
-            Self::Raster => "raster",
-            Self::Threats => "threats",
-            Self::Distance => "distance",
-            Self::Corridor => "corridor",
-            Self::Band => "band",
-            Self::Depth => "depth",
-            Self::Straits => "straits",
-            Self::FeatureSize => "feature-size",
-            Self::Surface => "surface",
-        }
-    }
-
-    /// Returns the name of a layer that is given none.
-    pub fn default_name(self) -> &'static str {
-        match self {
-            Self::Paint => "Paint",
-            Self::Formula => "Formula",
-            Self::Raster => "Raster",
-            Self::Threats => "Threats",
-            Self::Distance => "Distance",
-            Self::Corridor => "Corridor",
-            Self::Band => "Band",
-            Self::Depth => "Depth",
-            Self::Straits => "Straits",
-            Self::FeatureSize => "Feature size",
-            Self::Surface => "Surface",
-        }
-    }
-
-    /// Returns the keys of this kind alone.
-    pub fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Paint => &["quantity", "file", "layer"],
-            Self::Formula => &["quantity", "formula"],
-            Self::Raster => &["file", "bounds", "as", "curve"],
-            Self::Threats => &["file", "threats"],
-            Self::Distance => &["to", "pieces", "types", "file", "shapes", "at_zero", "slope", "range"],
-            Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
-            Self::Band => &["file", "bounds", "between", "diameter"],
-            Self::Straits | Self::FeatureSize => &["across", "width_from", "width_to"],
-            Self::Surface => &["file", "bounds", "formula", "within", "at_most", "norm"],
-            Self::Depth => &[
-                "file",
-                "bounds",
-                "positive",
-                "offset",
-                "size",
-                "depth_from",
-                "depth_to",
-                "period",
-                "triangles",
-                "smoothing",
-                "time_step",
-                "courant",
-            ],
         }
     }
 }

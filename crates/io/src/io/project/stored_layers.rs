@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::super::error::PlacedFlaw;
-use super::super::layers::{LayerData, LoadedRaster, SavedLayer, Stored, TextError};
+use super::super::layers::{LayerData, ListsInPlace, LoadedRaster, SavedLayer, Stored, TextError};
 use super::super::{Flaw, KeyFault};
 use super::part_names::{PartData, PartNames};
 use super::part_reader::PartReader;
@@ -76,13 +76,8 @@ impl StoredLayer {
         let [shapes, threats] = [PartData::shapes_of(layer), PartData::threats_of(layer)].map(name_of);
         let mask = name_of(layer.mask.as_ref().and_then(PartData::of_mask));
         let file = layer.kind.file_name().map(PathBuf::from);
-        let in_place = SavedLayer::without_lists(layer, file);
-        let layer = SavedLayer {
-            shapes: if shapes.is_none() { SavedLayer::shapes_of(layer) } else { None },
-            threats: if threats.is_none() { SavedLayer::threats_of(layer) } else { None },
-            mask: if mask.is_none() { SavedLayer::mask_of(layer) } else { None },
-            ..in_place
-        };
+        let in_place = ListsInPlace { data: shapes.is_none() && threats.is_none(), mask: mask.is_none() };
+        let layer = SavedLayer::of(layer, file, in_place);
         Self { id, layer, raster, shapes, threats, mask }
     }
 
@@ -90,12 +85,12 @@ impl StoredLayer {
         let Self { id, mut layer, raster, shapes, threats, mask } = self;
         // As in a recipe, a file stands for data that is elsewhere.
         if shapes.is_some() || threats.is_some() {
-            layer.file.get_or_insert_default();
+            layer.keys.file_key().map(Option::get_or_insert_default);
         }
         if mask.is_some() {
-            layer.mask_file.get_or_insert_default();
+            layer.shared.mask_file.get_or_insert_default();
         }
-        let checked = layer.checked(Stored::InProject);
+        let checked = layer.check(Stored::InProject);
         checked.map_err(|fault| {
             let problem = format!("the layer “{}” is not valid. {fault}", layer.shown_name());
             PlacedFlaw::from(Flaw::Syntax(problem))
@@ -124,7 +119,7 @@ impl LayerData for InProject<'_, '_, '_> {
         let (bounds, size) = (rect("raster", stored.bounds)?, checked_size([stored.columns, stored.rows])?);
         let raster = self.parts.raster(&stored.part, bounds, size);
         let raster = raster.map_err(|flaw| of_layer(flaw, layer, "pixels"))?;
-        if let Some(values) = layer.raster_values() {
+        if let Some(values) = layer.keys.raster_values() {
             check_values(&raster, values).map_err(|problem| layer.error(problem))?;
         }
         Ok(raster.into())

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::atomic::{Draft, obstacle, put_in_place};
-use super::super::layers::{MOST_IN_PLACE, SavedLayer};
+use super::super::layers::{GridKeys, ListsInPlace, MOST_IN_PLACE, PaintKeys, SavedLayer};
 use super::super::project::{self, Project};
 use super::super::settings::{SavedKeepOut, SavedSettings};
 use super::super::{Meter, asc, geojson, shapes, threats};
@@ -14,8 +14,8 @@ use super::{MOST_BYTES, to_text, too_long};
 use meshbrush_core::document::{KeepOut, Settings};
 use meshbrush_core::domain::{MOST_CORNERS, Polygon, RegionError};
 use meshbrush_core::layers::{
-    BandLayer, DistanceLayer, DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterLayer, RasterReading,
-    RasterSource, ShapeList, Shapes, Surface, SurfaceSource, Threats,
+    DistanceLayer, Layer, Mask, PaintLayers, RasterLayer, RasterReading, RasterSource, ShapeList, Shapes,
+    Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -70,14 +70,11 @@ impl RecipeFiles {
         for layer in &settings.layers {
             match (layer.paints(), painted.iter().position(|other| other.id == layer.id)) {
                 (None, _) => layers.push(plan.layer(layer)),
-                (Some(_), Some(number)) => {
-                    let layer_there = unique_names(&painted).swap_remove(number);
-                    let saved = plan.layer(layer);
-                    layers.push(SavedLayer {
-                        file: paint_file.clone().map(Into::into),
-                        layer: Some(layer_there),
-                        ..saved
-                    });
+                (Some(quantity), Some(number)) => {
+                    let there = unique_names(&painted).swap_remove(number);
+                    let file = paint_file.clone().map(Into::into);
+                    let keys = PaintKeys { quantity: quantity.into(), file, layer: Some(there) };
+                    layers.push(SavedLayer { keys: keys.into(), ..plan.layer(layer) });
                 }
                 (Some(_), None) => {}
             }
@@ -190,44 +187,28 @@ impl Plan {
 
     /// Returns a layer as the recipe has it, with its data in place or in files.
     fn layer(&mut self, layer: &Layer) -> SavedLayer {
-        let mut saved = SavedLayer::of(layer, None);
-        match &layer.kind {
-            LayerKind::Raster(RasterLayer { source, reading }) => {
-                let infinity = match reading {
-                    RasterReading::Curve(_) => AtInfinity::EndOfCurve,
-                    _ => AtInfinity::Nothing,
-                };
-                self.put_grid(&mut saved, layer, source, infinity);
-            }
-            LayerKind::Band(BandLayer { source, .. }) => {
-                self.put_grid(&mut saved, layer, source, AtInfinity::Nothing);
-            }
-            LayerKind::Depth(depths) => {
-                self.put_grid(&mut saved, layer, depths.source(), AtInfinity::Nothing);
-            }
-            LayerKind::Surface(Surface { source: SurfaceSource::Raster(source), .. }) => {
-                self.put_grid(&mut saved, layer, source, AtInfinity::Nothing);
-            }
-            LayerKind::Threats(threats) if threats.list().len() > MOST_IN_PLACE => {
-                saved.threats = None;
-                saved.file =
-                    Some(self.add(&layer.name, "csv", ExportContent::Threats(threats.clone())).into());
-            }
-            LayerKind::Distance(DistanceLayer {
-                to: DistanceTo::Shapes { shapes, .. } | DistanceTo::Corridor { lines: shapes, .. },
-                ..
-            }) if point_count(shapes.list()) > MOST_IN_PLACE => {
-                saved.shapes = None;
-                saved.file =
-                    Some(self.add(&layer.name, GEOJSON, ExportContent::Shapes(shapes.clone())).into());
-            }
-            _ => {}
-        }
-        if let Some(mask) = &layer.mask {
-            saved.mask_file = self.mask_file(mask, &format!("{} mask", layer.name)).map(PathBuf::from);
-            saved.mask = saved.mask.filter(|_| saved.mask_file.is_none());
+        let file = self.list_file(layer);
+        let mask_file =
+            layer.mask.as_ref().and_then(|mask| self.mask_file(mask, &format!("{} mask", layer.name)));
+        let in_place = ListsInPlace { data: file.is_none(), mask: mask_file.is_none() };
+        let mut saved = SavedLayer::of(layer, file.map(Into::into), in_place);
+        saved.shared.mask_file = mask_file.map(Into::into);
+        if let (Some(source), Some(grid)) = (layer.kind.raster_source(), saved.keys.grid_mut()) {
+            *grid = self.grid(layer, source);
         }
         saved
+    }
+
+    /// Returns the name of a file for the shapes or the threats of a layer, if they are too long for the
+    /// recipe.
+    fn list_file(&mut self, layer: &Layer) -> Option<String> {
+        if let Some(threats) = layer.kind.get::<Threats>() {
+            let is_long = threats.list().len() > MOST_IN_PLACE;
+            return is_long.then(|| self.add(&layer.name, "csv", ExportContent::Threats(threats.clone())));
+        }
+        let shapes = layer.kind.get::<DistanceLayer>()?.to.shapes()?;
+        let is_long = point_count(shapes.list()) > MOST_IN_PLACE;
+        is_long.then(|| self.add(&layer.name, GEOJSON, ExportContent::Shapes(shapes.clone())))
     }
 
     /// Returns a keep-out region as the recipe has it, with its polygons in place or in a file.
@@ -245,14 +226,12 @@ impl Plan {
         is_long.then(|| self.add(what, GEOJSON, ExportContent::Polygons(mask.polygons().to_vec())))
     }
 
-    /// Returns layers that read the same raster name the same file.
-    fn put_grid(
-        &mut self,
-        saved: &mut SavedLayer,
-        layer: &Layer,
-        source: &RasterSource,
-        infinity: AtInfinity,
-    ) {
+    /// Returns the file of a layer's raster. Layers that read the same raster name the same file.
+    fn grid(&mut self, layer: &Layer, source: &RasterSource) -> GridKeys {
+        let infinity = match layer.kind.get() {
+            Some(RasterLayer { reading: RasterReading::Curve(_), .. }) => AtInfinity::EndOfCurve,
+            _ => AtInfinity::Nothing,
+        };
         let is_same = |(raster, other, _): &&(Arc<RasterPyramid>, AtInfinity, String)| {
             Arc::ptr_eq(raster, &source.raster) && *other == infinity
         };
@@ -265,9 +244,8 @@ impl Plan {
         });
         let raster = source.raster.raster();
         let Rect { min, max } = raster.bounds();
-        saved.file = Some(name.into());
-        saved.bounds =
-            (asc::bounds_as_written(raster) != raster.bounds()).then_some([min.x, min.y, max.x, max.y]);
+        let is_other = asc::bounds_as_written(raster) != raster.bounds();
+        GridKeys { file: Some(name.into()), bounds: is_other.then_some([min.x, min.y, max.x, max.y]) }
     }
 }
 

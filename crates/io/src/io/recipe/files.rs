@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::super::geojson::{self, Outline};
 use super::super::layers::{
-    LayerData, LoadedRaster, RasterError, RasterFrame, RasterLoader, SavedLayer, Stored, TextError,
+    LayerData, LayerKeys, LoadedRaster, PaintKeys, RasterError, RasterFrame, RasterLoader, SavedLayer,
+    Stored, TextError,
 };
 use super::super::settings::{
     LoadingDefaults, ReadRegion, RegionCoordinates, SavedOpen, SavedSettings, Storage,
@@ -229,12 +230,14 @@ impl<'a> Files<'a> {
 
     /// Adds what a project has painted on a layer, if that is a paint layer.
     fn add_paint(&mut self, layer: &SavedLayer, id: LayerId) -> Result<(), LoadError> {
-        let (true, Some(path)) = (layer.is_paint(), &layer.file) else { return Ok(()) };
+        let LayerKeys::Paint(PaintKeys { quantity, file: Some(path), layer: there }) = &layer.keys else {
+            return Ok(());
+        };
         if !self.projects.contains_key(path) {
             self.projects.insert(path.clone(), project::read_metered(path, self.loading.meter)?);
         }
         let document = &self.projects[path];
-        let (name, file) = (layer.layer.as_deref().unwrap_or(layer.shown_name()), path.display());
+        let (name, file) = (there.as_deref().unwrap_or(layer.shown_name()), path.display());
         let painted = || document.settings().layers.iter().filter(|layer| layer.paints().is_some());
         let Some(stored) = painted().find(|other| other.name == name) else {
             let known: Vec<String> = painted().map(|layer| format!("“{}”", layer.name)).collect();
@@ -244,7 +247,7 @@ impl<'a> Files<'a> {
             };
             return Err(layer.error(format_args!("{file} has no paint layer “{name}”; it {there}.")).into());
         };
-        if stored.paints() != layer.quantity.map(Into::into) {
+        if stored.paints() != Some((*quantity).into()) {
             let problem = format_args!("what is painted on “{name}” in {file} is not of this `quantity`.");
             return Err(layer.error(problem).into());
         }
@@ -287,7 +290,7 @@ impl Storage for Files<'_> {
     type Layer = SavedLayer;
     type Error = LoadError;
 
-    fn keys(layer: &SavedLayer) -> &SavedLayer {
+    fn saved(layer: &SavedLayer) -> &SavedLayer {
         layer
     }
 
@@ -327,7 +330,8 @@ impl Storage for Files<'_> {
 
     fn extent(&mut self, layers: &[SavedLayer]) -> Result<Option<(Rect, LengthUnit)>, LoadError> {
         let mut extent: Option<(Rect, LengthUnit)> = None;
-        let of_rasters = layers.iter().filter(|layer| layer.visible && layer.raster_values().is_some());
+        let of_rasters =
+            layers.iter().filter(|layer| layer.shared.visible && layer.keys.raster_values().is_some());
         for layer in of_rasters {
             let place = self.rasters.own_place(&layer.raster_file()?)?;
             let place = place.map(|place| (place.rect, place.unit()));
@@ -346,7 +350,7 @@ impl Storage for Files<'_> {
         domain: Rect,
         transfer: &Transfer,
     ) -> Result<Option<Layer>, LoadError> {
-        if !(layer.visible || self.loading.with_hidden) {
+        if !(layer.shared.visible || self.loading.with_hidden) {
             return Ok(None);
         }
         self.frame = RasterFrame { domain, wanted: Some(domain), plane: self.plane, transfer: *transfer };
@@ -371,7 +375,7 @@ impl LayerData for Files<'_> {
     const STORED: Stored = Stored::InFiles;
 
     fn raster(&mut self, layer: &SavedLayer) -> Result<LoadedRaster, LoadError> {
-        let values = layer.raster_values().unwrap_or(RasterValues::Any);
+        let values = layer.keys.raster_values().unwrap_or(RasterValues::Any);
         self.rasters.load(&layer.raster_file()?, values, &self.frame).map_err(|error| match error {
             RasterError::Read(error) => error.into(),
             RasterError::Value(problem) => layer.error(problem).into(),

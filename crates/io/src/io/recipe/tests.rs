@@ -349,8 +349,17 @@ fn values_that_cannot_be_used_are_named_with_line_and_column() {
             "A threat has the range -1",
         ),
         ("[[layer]]\nkind = \"threats\"\nthreats = []", [2, 1], "risk and images need `h_min`"),
-        ("[[layer]]\nkind = \"band\"\nfile = \"a.jpg\"", [3, 8], "a raster ends in .png"),
-        ("[[layer]]\nkind = \"band\"", [2, 1], "a layer of the kind \"band\" needs `file`."),
+        (
+            "[[layer]]\nkind = \"band\"\nfile = \"a.jpg\"\nbetween = [0, 1]\ndiameter = 2",
+            [3, 8],
+            "a raster ends in .png",
+        ),
+        ("[[layer]]\nkind = \"band\"", [2, 1], "a layer of the kind \"band\" needs `between`."),
+        (
+            "[[layer]]\nkind = \"band\"\nbetween = [0, 1]\ndiameter = 2",
+            [2, 1],
+            "a layer of the kind \"band\" needs `file`.",
+        ),
         (
             "[[layer]]\nkind = \"formula\"\nquantity = \"risk\"\nformula = \"1 + sqr(ä)\"",
             [4, 11],

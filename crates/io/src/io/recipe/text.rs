@@ -48,7 +48,7 @@ impl RecipeText {
     /// Returns the error for a value that cannot be used.
     pub fn error(&self, fault: &KeyFault) -> ReadError {
         let span = self.span_of(fault).unwrap_or(0..0);
-        self.pointing(span, &fault.full_sentence(), fault.pointer.as_deref())
+        self.pointing(span, &fault.full_sentence(), fault.part.as_ref().map(|part| &*part.pointer))
     }
 
     /// Returns an error at a place: the sentence, and two lines that point there, or `own_pointer`.

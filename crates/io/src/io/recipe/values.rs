@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::super::layers::{SavedKind, SavedLayer, check_keys, check_keys_of_all};
+use super::super::layers::{DepthKeys, GridKeys, LayerKeys, PaintKeys, SavedLayer};
 use super::super::settings::{SavedOutput, SavedSettings, WrittenLengths};
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
@@ -74,9 +74,13 @@ impl SavedSettings {
 
     /// Returns the settings that tables state, with numbers in the place of lengths with units.
     pub(super) fn of_tables(mut tables: TextValue, unit: Option<LengthUnit>) -> Result<Self, KeyFault> {
-        check_keys_of_all(&tables)?;
         let lengths = WrittenLengths::take(&mut tables, unit)?;
-        Ok(Self::deserialize(&tables)?.with_lengths(lengths))
+        let tables = SavedSettings::<TextValue>::deserialize(&tables)?;
+        let layer_of =
+            |(index, table)| SavedLayer::of_table(table).map_err(|fault| fault.within(index).within("layer"));
+        Ok(tables
+            .with_layers(|layers| layers.into_iter().enumerate().map(layer_of).collect())?
+            .with_lengths(lengths))
     }
 
     fn checked(mut self, given: &Given) -> Result<Self, KeyFault> {
@@ -105,23 +109,23 @@ impl SavedLayer {
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
     pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
-        check_keys(table)?;
         let mut table = table.clone();
         let lengths = WrittenLengths::take(&mut table, Some(others.unit))?;
         lengths.check(others.unit)?;
-        let layer = Self::deserialize(&table)?;
+        let layer = Self::of_table(table)?;
         let mut alone = SavedSettings { layer: vec![layer], ..SavedSettings::default() };
         alone.limits.h_min = others.smallest.then_some(1.0);
         let checked = alone.place_files(&|name| found(given, name)).and_then(|()| {
             let mut as_recipe = alone.clone();
-            let layer = &mut as_recipe.layer[0];
             // Unlike a recipe, a document has paint layers of its own.
-            if layer.is_paint() && layer.file.is_none() && layer.layer.is_none() {
-                layer.file = Some(PathBuf::new());
+            if let LayerKeys::Paint(PaintKeys { file: file @ None, layer: None, .. }) =
+                &mut as_recipe.layer[0].keys
+            {
+                *file = Some(PathBuf::new());
             }
             if others.depths {
-                let file = Some("depths.npy".into());
-                as_recipe.layer.push(Self { file, ..Self::of_kind(SavedKind::Depth) });
+                let grid = GridKeys { file: Some("depths.npy".into()), bounds: None };
+                as_recipe.layer.push(DepthKeys { grid, ..DepthKeys::default() }.into());
             }
             as_recipe.check()?;
             as_recipe.check_recipe()

@@ -6,9 +6,7 @@ use super::{
     RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOutput, SavedParts, SavedPins,
     SavedSettings, SavedTreatment,
 };
-use crate::io::layers::{
-    CheckedKind, FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
-};
+use crate::io::layers::{FindFile, SavedKind, Stored, compiled, each, point, positive_length, rect_of};
 use crate::io::{KeyFault, KeyStep, RasterFormat};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
@@ -49,11 +47,10 @@ impl SavedSettings {
     /// Fails for the first one that cannot be used.
     pub fn check(&self) -> Result<(), KeyFault> {
         self.check_tables()?;
-        let has_depths = self.layer.iter().any(|layer| layer.kind == SavedKind::Depth);
+        let has_depths = self.layer.iter().any(|layer| layer.kind() == SavedKind::Depth);
         for (index, layer) in self.layer.iter().enumerate() {
-            let checked = layer.checked(Stored::InFiles);
-            let kind = checked.map_err(|fault| fault.within(index).within("layer"))?;
-            if matches!(kind, CheckedKind::Complete(kind) if kind.uses_depth()) && !has_depths {
+            layer.check(Stored::InFiles).map_err(|fault| fault.within(index).within("layer"))?;
+            if layer.keys.uses_depth() && !has_depths {
                 let problem = "it uses `depth`, and there are no depths. Name a grid of them: on the command line with \
                                --depth, in a recipe in a layer of the kind \"depth\".";
                 return Err(KeyFault::value("formula", problem).within(index).within("layer"));
@@ -69,8 +66,8 @@ impl SavedSettings {
     pub(in crate::io) fn check_recipe(&self) -> Result<(), KeyFault> {
         self.domain.check_together().map_err(|fault| fault.within("domain"))?;
         for (index, layer) in self.layer.iter().enumerate() {
-            let has_scale = self.limits.h_min.is_some() || !layer.uses_scale();
-            let problem = if layer.is_paint() && layer.file.is_none() {
+            let has_scale = self.limits.h_min.is_some() || !layer.keys.uses_scale();
+            let problem = if layer.kind() == SavedKind::Paint && layer.keys.file().is_none() {
                 "paint has no form as text; name the project that holds it, as in file = \"harbour.meshbrush\"."
             } else if !has_scale {
                 "risk and images need `h_min` in the table [limits]: the smallest target diameter, where the risk is 1 \
@@ -86,20 +83,21 @@ impl SavedSettings {
     /// Returns whether some layer needs both ends of the scale from the smallest to the largest target
     /// diameter.
     pub fn uses_scale(&self) -> bool {
-        self.layer.iter().any(SavedLayer::uses_scale)
+        self.layer.iter().any(|layer| layer.keys.uses_scale())
     }
 
     /// Returns the files to read.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
-        let of_layers = self.layer.iter().flat_map(|layer| [layer.file.as_ref(), layer.mask_file.as_ref()]);
-        let of_paths = self.keep_out.iter().map(|region| region.file.as_ref());
+        let of_layers =
+            self.layer.iter().flat_map(|layer| [layer.keys.file(), layer.shared.mask_file.as_deref()]);
+        let of_paths = self.keep_out.iter().map(|region| region.file.as_deref());
         let of_openings = self.domain.open.0.iter().map(|entry| match entry {
-            SavedOpen::Polygons(file) => Some(file),
+            SavedOpen::Polygons(file) => Some(file.as_path()),
             _ => None,
         });
         let of_domain =
-            [self.domain.region.as_ref(), self.domain.land.as_ref()].into_iter().chain(of_openings);
-        of_layers.chain(of_domain).chain(of_paths).flatten().map(PathBuf::as_path)
+            [self.domain.region.as_deref(), self.domain.land.as_deref()].into_iter().chain(of_openings);
+        of_layers.chain(of_domain).chain(of_paths).flatten()
     }
 
     /// Puts the path of each file in place of its name.
@@ -122,8 +120,8 @@ impl SavedSettings {
             }
         }
         for (index, layer) in self.layer.iter_mut().enumerate() {
-            let placed =
-                place("file", &mut layer.file).and_then(|()| place("mask_file", &mut layer.mask_file));
+            let placed = layer.keys.file_key().map_or(Ok(()), |file| place("file", file));
+            let placed = placed.and_then(|()| place("mask_file", &mut layer.shared.mask_file));
             placed.map_err(|fault| fault.within(index).within("layer"))?;
         }
         for (index, region) in self.keep_out.iter_mut().enumerate() {

@@ -82,8 +82,8 @@ pub trait Storage {
     /// Why data could not be read, or a value cannot be used.
     type Error: From<KeyFault> + From<TextError> + From<CoarseError>;
 
-    /// Returns the keys of a layer.
-    fn keys(layer: &Self::Layer) -> &SavedLayer;
+    /// Returns the layer as the text has it.
+    fn saved(layer: &Self::Layer) -> &SavedLayer;
 
     /// Returns the polygons of the domain, in `bounds` where these are given, in the plane of a projection
     /// where one is chosen. The bounds are in the coordinates of the file.
@@ -212,7 +212,7 @@ impl<L> SavedSettings<L> {
     /// Returns the limits of h̄ and the curve from risk to diameter.
     fn transfer<S: Storage<Layer = L>>(&self, coarse_diameter: f64) -> Transfer {
         let h_min = self.limits.h_min.unwrap_or(f64::MIN_POSITIVE);
-        let uses_scale = self.layer.iter().any(|layer| S::keys(layer).uses_scale());
+        let uses_scale = self.layer.iter().any(|layer| S::saved(layer).keys.uses_scale());
         let h_risk = self.limits.h_risk.unwrap_or(h_min);
         let widest = if uses_scale { coarse_diameter.max(h_risk) } else { f64::MAX };
         let h_max = self.limits.h_max.unwrap_or(widest);

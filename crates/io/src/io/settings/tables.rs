@@ -54,6 +54,18 @@ impl<L> Default for SavedSettings<L> {
     }
 }
 
+impl<L> SavedSettings<L> {
+    /// Returns the settings with other layers in place of their own.
+    pub(in crate::io) fn with_layers<M, E>(
+        self,
+        of_layers: impl FnOnce(Vec<L>) -> Result<Vec<M>, E>,
+    ) -> Result<SavedSettings<M>, E> {
+        let Self { domain, mesh, limits, layer, paths, keep_out, pins, output, lengths } = self;
+        let layer = of_layers(layer)?;
+        Ok(SavedSettings { domain, mesh, limits, layer, paths, keep_out, pins, output, lengths })
+    }
+}
+
 fn is_default<T: Default + PartialEq>(table: &T) -> bool {
     *table == T::default()
 }

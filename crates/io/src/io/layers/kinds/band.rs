@@ -1,0 +1,66 @@
+use serde::{Deserialize, Serialize};
+
+use super::super::checks::positive_length;
+use super::super::{LayerData, SavedLayer, Stored};
+use super::{GridKeys, KindKeys, LoadKind, SavedKind};
+use crate::io::KeyFault;
+use crate::io::layers::key_group::group_of_groups;
+use meshbrush_core::layers::{BandLayer, LayerKind};
+
+/// The keys of a band.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BandKeys {
+    /// Which raster it is.
+    #[serde(flatten)]
+    pub grid: GridKeys,
+    /// Which of its values count.
+    #[serde(flatten)]
+    pub step: StepKeys,
+}
+
+/// One diameter between two values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StepKeys {
+    /// The least and the greatest value.
+    pub between: [f64; 2],
+    /// The target diameter there, in world units.
+    pub diameter: f64,
+}
+
+group_of_groups!(BandKeys { grid: GridKeys, step: StepKeys });
+
+impl BandKeys {
+    pub(super) fn of(BandLayer { between, diameter, .. }: &BandLayer) -> Self {
+        let step = StepKeys { between: *between, diameter: *diameter };
+        Self { grid: GridKeys::default(), step }
+    }
+}
+
+impl KindKeys for BandKeys {
+    fn check(&self, stored: Stored) -> Result<(), KeyFault> {
+        self.grid.check(SavedKind::Band, stored)?;
+        let [least, greatest] = self.step.between;
+        if !(least.is_finite() && greatest.is_finite()) || least > greatest {
+            let sentence = "write two finite numbers, the least value first.";
+            return Err(KeyFault::value("between", sentence));
+        }
+        positive_length(self.step.diameter).map(|_| ()).map_err(|fault| fault.within("diameter"))
+    }
+
+    fn grid(&self) -> Option<&GridKeys> {
+        Some(&self.grid)
+    }
+
+    fn grid_mut(&mut self) -> Option<&mut GridKeys> {
+        Some(&mut self.grid)
+    }
+}
+
+impl LoadKind for BandKeys {
+    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
+        let StepKeys { between, diameter } = self.step;
+        let (source, _) = layer.raster_source(data)?;
+        Ok(LayerKind::Band(BandLayer { source, between, diameter }))
+    }
+}
