@@ -96,7 +96,7 @@ fn cost_of(table: &Bound<'_, PyDict>, unit: LengthUnit) -> PyResult<(PathCost, f
             risk: paths.risk_weight.unwrap_or(default.risk),
         }),
     };
-    Ok((cost, paths.clearance.unwrap_or(0.0)))
+    Ok((cost, paths.clearance.map_or(0.0, Into::into)))
 }
 
 impl Asked {

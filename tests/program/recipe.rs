@@ -10,7 +10,7 @@ use meshbrush::{
     BoundaryMarks, BoundaryType, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect,
     Settings, write_geojson, write_project,
 };
-use meshbrush_io::io::layers::SavedLayer;
+use meshbrush_io::io::layers::{SavedKind, SavedLayer};
 use meshbrush_io::io::recipe::{parse, read, to_text};
 use meshbrush_io::io::settings::SavedSettings;
 
@@ -66,20 +66,13 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
     assert_eq!((settings.layer.len(), settings.output.len()), (4, 2));
     assert_eq!((settings.paths.routes.len(), settings.keep_out.len()), (1, 1));
     // The message about a key that does not exist lists those that do.
-    for table in [
-        "[{}]",
-        "[domain]",
-        "[mesh]",
-        "[limits]",
-        "[[layer]]",
-        "[paths]",
-        "[[keep_out]]",
-        "[pins]",
-        "[[output]]",
-    ] {
+    let tables =
+        ["[{}]", "[domain]", "[mesh]", "[limits]", "[paths]", "[[keep_out]]", "[pins]", "[[output]]"];
+    let layers = SavedKind::ALL.iter().map(|kind| format!("[[layer]]\nkind = \"{}\"", kind.word()));
+    for table in tables.map(str::to_owned).into_iter().chain(layers) {
         let text = table.replace("[{}]", "") + "\nqqqqqqqqqqqqqqqqqqqq = 1";
         let error = parse(Path::new("a.toml"), text, &find).unwrap_err().to_string();
-        let (_, keys) = error.split_once("the keys here are ").expect(table);
+        let (_, keys) = error.split_once("the keys here are ").expect(&table);
         for key in keys.split(".\n").next().unwrap().split(", ") {
             let is_mentioned =
                 [format!("`{key}`"), format!("[{key}]")].iter().any(|key| REFERENCE.contains(key));
@@ -165,7 +158,7 @@ fn mistakes_are_reported_with_line_and_column() {
             "r.toml, line 2, column 1: there is no key `spacng` here; did you mean",
         ),
         (
-            "[[layer]]\nkind = \"band\"\nfile = \"gone.asc\"",
+            "[[layer]]\nkind = \"band\"\nfile = \"gone.asc\"\nbetween = [0, 1]\ndiameter = 2",
             "",
             1,
             "r.toml, line 3, column 1: the file gone.asc cannot be found",

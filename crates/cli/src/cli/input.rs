@@ -143,7 +143,7 @@ impl Input {
         self.settings
             .domain
             .boundary_diameter
-            .map_or(Ok(()), |diameter| check_resolvable(diameter, &lattice))?;
+            .map_or(Ok(()), |diameter| check_resolvable(*diameter, &lattice))?;
         let spec = settings.mesh_spec_on(lattice, limits);
         // What is said about parts counts for every domain; else only fitted meshes are cleaned.
         let spec = MeshSpec { cleaning: self.settings.cleaning(spec.cleaning), ..spec };
@@ -158,7 +158,7 @@ impl Input {
         let has_outline = document.settings().domain.region().is_some();
         if let Some(diameter) = options.boundary_diameter {
             let stored = SavedTreatment::of(document.settings().boundary);
-            check_boundary_diameter(diameter, has_outline, Some(options.boundary.unwrap_or(stored)))?;
+            check_boundary_diameter(*diameter, has_outline, Some(options.boundary.unwrap_or(stored)))?;
         } else if options.boundary.is_some() && !has_outline {
             terminal.note("--boundary changes nothing: the domain of the project has no polygons.");
         }

@@ -12,9 +12,9 @@ use meshbrush_io::io::layers::{
     FeatureSizeKeys, FormulaKeys, GridKeys, RasterKeys, ReadingKeys, SavedKind, SavedLayer, SavedQuantity,
     StraitKeys, ThreatKeys, WidthKeys,
 };
+use meshbrush_io::io::lengths::{GroundArea, GroundLength, METRES, SavedLength};
 use meshbrush_io::io::settings::{
-    METRES, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOpenings, SavedParts, SavedSettings,
-    SavedTreatment,
+    SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOpenings, SavedParts, SavedSettings, SavedTreatment,
 };
 use meshbrush_io::io::{KeyFault, KeyStep};
 use meshbrush_mesh::geometry::Rect;
@@ -51,8 +51,8 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             open: openings(&typed.earth.open)?,
             contour: typed.water.contour,
             positive: typed.water.contour.and(typed.water.depth_positive).map(Into::into),
-            smallest_island: typed.water.smallest_island,
-            smallest_inlet: typed.water.smallest_inlet,
+            smallest_island: typed.water.smallest_island.map(GroundArea),
+            smallest_inlet: typed.water.smallest_inlet.map(GroundLength),
             crs: typed.earth.crs.clone(),
             projection,
             boundary: typed.boundary.map(Into::into),
@@ -101,8 +101,8 @@ fn projection(typed: &InputArguments) -> Result<Option<String>, Failure> {
 }
 
 /// Returns the number of a length.
-fn value(length: &Option<Length>) -> Option<f64> {
-    length.as_ref().map(|length| length.value)
+fn value(length: &Option<Length>) -> Option<SavedLength> {
+    length.as_ref().map(|length| length.value.into())
 }
 
 /// Returns the file of the region: with --outside-nodata alone, the grid of the highest surface.
@@ -144,7 +144,7 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         let keys = ThreatKeys { file: Some(path.clone()), threats: None };
         (with_file("--threats", path), keys.into())
     }));
-    layers.extend(typed.distances.layers(value(&typed.h_min))?);
+    layers.extend(typed.distances.layers(typed.h_min.as_ref())?);
     layers.extend(typed.water.depth_layers());
     let water = &typed.water;
     let straits = WaterWidths {
@@ -172,7 +172,7 @@ struct WaterWidths {
     option: &'static str,
     /// Triangles across, if the option is given.
     across: Option<f64>,
-    widest: Option<f64>,
+    widest: Option<SavedLength>,
     widest_option: &'static str,
 }
 
@@ -181,12 +181,15 @@ impl WaterWidths {
     fn keys(&self, typed: &InputArguments) -> Result<Option<(String, WidthKeys)>, Failure> {
         let Self { option, across, widest, widest_option } = *self;
         let (Some(across), Some(h_min)) = (across, value(&typed.h_min)) else { return Ok(None) };
-        let widest = widest.or(value(&typed.h_max).map(|h_max| across * h_max));
+        let widest = widest.or(value(&typed.h_max).map(|h_max| SavedLength(across * *h_max)));
         let width_to = widest.ok_or_else(|| {
             let problem = format!("the widest water is not known. Give it with {widest_option}, or --h-max");
             Failure::Usage(format!("{option} {across}: {problem}."))
         })?;
-        Ok(Some((format!("{option} {across}"), WidthKeys { across, width_from: across * h_min, width_to })))
+        Ok(Some((
+            format!("{option} {across}"),
+            WidthKeys { across, width_from: SavedLength(across * *h_min), width_to },
+        )))
     }
 }
 

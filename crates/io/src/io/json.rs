@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use super::KeyFault;
-use super::values::TextValue;
+use super::values::{TextReader, TextValue};
 
 /// Why a text in JSON cannot be used.
 pub(super) struct JsonFlaw {
@@ -37,7 +37,7 @@ fn fault_of<T: DeserializeOwned>(text: &[u8]) -> Option<String> {
         return None;
     }
     let value: TextValue = serde_json::from_slice(text).ok()?;
-    let found: Result<T, KeyFault> = T::deserialize(&value);
+    let found: Result<T, KeyFault> = T::deserialize(TextReader::plain(&value));
     found.err().map(|fault| fault.to_string())
 }
 

@@ -55,6 +55,7 @@ pub mod journal;
 mod json;
 pub mod kml;
 pub mod layers;
+pub mod lengths;
 pub mod located;
 pub mod msh;
 pub mod msh2;

@@ -5,15 +5,16 @@
 
 use std::fmt;
 
-use serde::de::value::BorrowedStrDeserializer;
+use serde::de::value::{BorrowedStrDeserializer, F64Deserializer};
 use serde::de::{
-    Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, MapAccess, SeqAccess, Unexpected,
-    VariantAccess, Visitor,
+    Deserialize, DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, MapAccess, SeqAccess,
+    Unexpected, VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 
-use super::KeyFault;
+use super::lengths::{Measure, TextContext};
+use super::{KeyFault, KeyStep};
 
 /// A value of a text. Tables are in the order of the text.
 #[derive(Clone, Debug)]
@@ -93,11 +94,39 @@ impl TextValue {
     }
 }
 
-impl<'de> Deserializer<'de> for &'de TextValue {
+/// Reads a value, with what its lengths mean.
+#[derive(Clone, Copy)]
+pub struct TextReader<'c, 'de> {
+    value: &'de TextValue,
+    context: Option<&'c TextContext>,
+}
+
+impl<'c, 'de> TextReader<'c, 'de> {
+    /// Returns a reader of a value whose lengths are numbers.
+    pub fn plain(value: &'de TextValue) -> Self {
+        Self { value, context: None }
+    }
+
+    /// Returns a reader of a value whose lengths may have units.
+    pub fn new(value: &'de TextValue, context: &'c TextContext) -> Self {
+        Self { value, context: Some(context) }
+    }
+
+    /// Reads a value in a list or a table.
+    fn within<T>(self, step: KeyStep, read: impl FnOnce(Self) -> Result<T, KeyFault>) -> Result<T, KeyFault> {
+        let found = match self.context {
+            Some(context) => context.within(step.clone(), || read(self)),
+            None => read(self),
+        };
+        found.map_err(|fault| fault.within(step))
+    }
+}
+
+impl<'de> Deserializer<'de> for TextReader<'_, 'de> {
     type Error = KeyFault;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        match self {
+        match self.value {
             TextValue::Nothing => visitor.visit_unit(),
             TextValue::Bool(value) => visitor.visit_bool(*value),
             TextValue::Whole(number) => match i64::try_from(*number) {
@@ -106,41 +135,41 @@ impl<'de> Deserializer<'de> for &'de TextValue {
             },
             TextValue::Number(number) => visitor.visit_f64(*number),
             TextValue::Text(text) => visitor.visit_borrowed_str(text),
-            TextValue::Date => self.refused("a number, a text, a list or a table"),
-            TextValue::List(list) => visitor.visit_seq(Entries { list, next: 0 }),
-            TextValue::Table(table) => visitor.visit_map(Keys { table, next: 0 }),
+            TextValue::Date => self.value.refused("a number, a text, a list or a table"),
+            TextValue::List(list) => visitor.visit_seq(Entries { list, next: 0, context: self.context }),
+            TextValue::Table(table) => visitor.visit_map(Keys { table, next: 0, context: self.context }),
         }
     }
 
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        if let TextValue::Bool(value) = self {
+        if let TextValue::Bool(value) = self.value {
             visitor.visit_bool(*value)
         } else {
-            self.refused("true or false")
+            self.value.refused("true or false")
         }
     }
 
     fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        match self {
+        match self.value {
             TextValue::Whole(number) => visitor.visit_f64(*number as f64),
             TextValue::Number(number) => visitor.visit_f64(*number),
-            _ => self.refused("a number"),
+            _ => self.value.refused("a number"),
         }
     }
 
     fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        visitor.visit_u32(self.whole()?)
+        visitor.visit_u32(self.value.whole()?)
     }
 
     fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        visitor.visit_u64(self.whole()?)
+        visitor.visit_u64(self.value.whole()?)
     }
 
     fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        if let TextValue::Text(text) = self {
+        if let TextValue::Text(text) = self.value {
             visitor.visit_borrowed_str(text)
         } else {
-            self.refused("a text in quotation marks")
+            self.value.refused("a text in quotation marks")
         }
     }
 
@@ -149,32 +178,53 @@ impl<'de> Deserializer<'de> for &'de TextValue {
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        match self {
+        match self.value {
             TextValue::Nothing => visitor.visit_none(),
             _ => visitor.visit_some(self),
         }
     }
 
+    /// A text may stand in the place of a length: the name of the type says so.
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
-        _: &'static str,
+        name: &'static str,
         visitor: V,
     ) -> Result<V::Value, KeyFault> {
-        visitor.visit_newtype_struct(self)
+        let read = self.context.and_then(|context| Some((context, Measure::of_type(name)?)));
+        match (self.value, read) {
+            (TextValue::Text(text), Some((context, measure))) => {
+                let number: F64Deserializer<KeyFault> = context.number(measure, text)?.into_deserializer();
+                visitor.visit_newtype_struct(number)
+            }
+            _ => visitor.visit_newtype_struct(self),
+        }
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, KeyFault> {
-        if let TextValue::List(_) = self { self.deserialize_any(visitor) } else { self.refused("a list") }
+        if let TextValue::List(_) = self.value {
+            self.deserialize_any(visitor)
+        } else {
+            self.value.refused("a list")
+        }
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, KeyFault> {
-        match self {
+        match self.value {
             TextValue::List(list) if list.len() == length => self.deserialize_any(visitor),
             TextValue::List(list) => {
                 Err(KeyFault::invalid_length(list.len(), &&*format!("a list of {length} numbers")))
             }
-            _ => self.refused(format!("a list of {length} numbers")),
+            _ => self.value.refused(format!("a list of {length} numbers")),
         }
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, KeyFault> {
+        self.deserialize_tuple(length, visitor)
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -183,36 +233,43 @@ impl<'de> Deserializer<'de> for &'de TextValue {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, KeyFault> {
-        match self {
-            TextValue::Text(word) => visitor.visit_enum(Variant { word, content: None }),
+        match self.value {
+            TextValue::Text(word) => {
+                visitor.visit_enum(Variant { word, content: None, context: self.context })
+            }
             TextValue::Table(table) => match &table[..] {
-                [(word, content)] => visitor.visit_enum(Variant { word, content: Some(content) }),
-                _ => self.refused("a table with one key"),
+                [(word, content)] => {
+                    visitor.visit_enum(Variant { word, content: Some(content), context: self.context })
+                }
+                _ => self.value.refused("a table with one key"),
             },
             _ => Err(KeyFault::only_a_word()),
         }
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i64 i128 u8 u16 u128 f32 char bytes byte_buf unit unit_struct tuple_struct map struct
+        i8 i16 i32 i64 i128 u8 u16 u128 f32 char bytes byte_buf unit unit_struct map struct
         identifier ignored_any
     }
 }
 
 /// The entries of a list, from one of them on.
-struct Entries<'de> {
+struct Entries<'c, 'de> {
     list: &'de [TextValue],
     next: usize,
+    context: Option<&'c TextContext>,
 }
 
-impl<'de> SeqAccess<'de> for Entries<'de> {
+impl<'de> SeqAccess<'de> for Entries<'_, 'de> {
     type Error = KeyFault;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, KeyFault> {
         let Some(entry) = self.list.get(self.next) else { return Ok(None) };
         let index = self.next;
         self.next += 1;
-        seed.deserialize(entry).map(Some).map_err(|fault| fault.within(index))
+        TextReader { value: entry, context: self.context }
+            .within(index.into(), |entry| seed.deserialize(entry))
+            .map(Some)
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -221,12 +278,13 @@ impl<'de> SeqAccess<'de> for Entries<'de> {
 }
 
 /// The entries of a table, from one of them on.
-struct Keys<'de> {
+struct Keys<'c, 'de> {
     table: &'de [(String, TextValue)],
     next: usize,
+    context: Option<&'c TextContext>,
 }
 
-impl<'de> MapAccess<'de> for Keys<'de> {
+impl<'de> MapAccess<'de> for Keys<'_, 'de> {
     type Error = KeyFault;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, KeyFault> {
@@ -238,17 +296,19 @@ impl<'de> MapAccess<'de> for Keys<'de> {
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, KeyFault> {
         let (key, value) = &self.table[self.next];
         self.next += 1;
-        seed.deserialize(value).map_err(|fault| fault.within(key.clone()))
+        TextReader { value, context: self.context }
+            .within(key.clone().into(), |value| seed.deserialize(value))
     }
 }
 
 /// A word, or a table with one key, whose value belongs to that word.
-struct Variant<'de> {
+struct Variant<'c, 'de> {
     word: &'de str,
     content: Option<&'de TextValue>,
+    context: Option<&'c TextContext>,
 }
 
-impl<'de> EnumAccess<'de> for Variant<'de> {
+impl<'de> EnumAccess<'de> for Variant<'_, 'de> {
     type Error = KeyFault;
     type Variant = Self;
 
@@ -262,15 +322,17 @@ impl<'de> EnumAccess<'de> for Variant<'de> {
     }
 }
 
-impl<'de> Variant<'de> {
-    fn content(&self) -> Result<&'de TextValue, KeyFault> {
+impl<'de> Variant<'_, 'de> {
+    /// Reads what belongs to the word.
+    fn read<T>(&self, read: impl FnOnce(TextReader<'_, 'de>) -> Result<T, KeyFault>) -> Result<T, KeyFault> {
         let word = self.word;
-        self.content
-            .ok_or_else(|| KeyFault::not_a(format!("a table with the key `{word}`"), Unexpected::Str(word)))
+        let missing = || KeyFault::not_a(format!("a table with the key `{word}`"), Unexpected::Str(word));
+        let value = self.content.ok_or_else(missing)?;
+        TextReader { value, context: self.context }.within(word.to_owned().into(), read)
     }
 }
 
-impl<'de> VariantAccess<'de> for Variant<'de> {
+impl<'de> VariantAccess<'de> for Variant<'_, 'de> {
     type Error = KeyFault;
 
     fn unit_variant(self) -> Result<(), KeyFault> {
@@ -278,12 +340,11 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
     }
 
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, KeyFault> {
-        seed.deserialize(self.content()?).map_err(|fault| fault.within(self.word.to_owned()))
+        self.read(|content| seed.deserialize(content))
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, KeyFault> {
-        let list = self.content()?.deserialize_tuple(length, visitor);
-        list.map_err(|fault| fault.within(self.word.to_owned()))
+        self.read(|content| content.deserialize_tuple(length, visitor))
     }
 
     fn struct_variant<V: Visitor<'de>>(
@@ -291,7 +352,7 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, KeyFault> {
-        self.content()?.deserialize_any(visitor).map_err(|fault| fault.within(self.word.to_owned()))
+        self.read(|content| content.deserialize_any(visitor))
     }
 }
 

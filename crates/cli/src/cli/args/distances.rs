@@ -54,22 +54,22 @@ impl DistanceArguments {
     ///
     /// # Errors
     /// Fails when there is no such type, or nothing says what the target diameter is at distance 0.
-    pub fn layers(&self, h_min: Option<f64>) -> Result<Vec<(String, SavedLayer)>, Failure> {
+    pub fn layers(&self, h_min: Option<&Length>) -> Result<Vec<(String, SavedLayer)>, Failure> {
         let of_file = |path: &PathBuf| {
             let shapes = ShapeKeys { file: Some(path.clone()), shapes: None };
             (format!("--distance {}", path.display()), TargetKeys { shapes, ..TargetKeys::default() })
         };
         let layer = |(option, target): (String, TargetKeys)| {
-            let at_zero = self.distance_at_zero.as_ref().map(|length| length.value).or(h_min);
+            let at_zero = self.distance_at_zero.as_ref().or(h_min);
             let at_zero = at_zero.ok_or_else(|| {
                 let problem =
                     "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
                 Failure::Usage(format!("{option}: {problem}."))
             })?;
             let growth = GrowthKeys {
-                at_zero,
+                at_zero: at_zero.value.into(),
                 slope: self.distance_slope.unwrap_or(DEFAULT_SLOPE),
-                range: self.distance_range.as_ref().map(|length| length.value),
+                range: self.distance_range.as_ref().map(|length| length.value.into()),
             };
             Ok((option, DistanceKeys { target, growth }.into()))
         };

@@ -155,7 +155,7 @@ impl WaterArguments {
                 ("--per-wavelength", size, finest)
             }),
             self.per_slope.map(|triangles| {
-                let smoothing = self.smoothing.as_ref().map(|side| side.value);
+                let smoothing = self.smoothing.as_ref().map(|side| side.value.into());
                 ("--per-slope", DepthSizeKeys::Slope(SlopeKeys { triangles, smoothing }), finest)
             }),
             courant(self.min_courant).map(|size| ("--min-courant", size, finest)),

@@ -13,10 +13,32 @@ use std::fmt;
 use serde::de::{DeserializeOwned, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
 
+use crate::io::lengths::TextContext;
+use crate::io::values::TextReader;
 use crate::io::{KeyFault, TextValue};
 
 /// The entries of a table that nothing has taken yet.
-pub type Entries = Vec<(String, TextValue)>;
+pub struct Entries<'c> {
+    left: Vec<(String, TextValue)>,
+    context: &'c TextContext,
+}
+
+impl<'c> Entries<'c> {
+    /// Returns the entries of a table, or `None` for another value.
+    pub fn of(table: TextValue, context: &'c TextContext) -> Option<Self> {
+        if let TextValue::Table(left) = table { Some(Self { left, context }) } else { None }
+    }
+
+    /// Returns what lengths mean in the table.
+    pub(super) fn context(&self) -> &'c TextContext {
+        self.context
+    }
+
+    /// Returns the keys of the entries that are left.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.left.iter().map(|(key, _)| &**key)
+    }
+}
 
 /// A part of the keys of a table.
 pub trait KeyGroup: Sized {
@@ -27,7 +49,7 @@ pub trait KeyGroup: Sized {
     ///
     /// # Errors
     /// Fails for a value of another type, and for a key that is needed and missing.
-    fn take(entries: &mut Entries) -> Result<Self, KeyFault>;
+    fn take(entries: &mut Entries<'_>) -> Result<Self, KeyFault>;
 }
 
 /// The fields of a struct that serde derives are its keys.
@@ -36,10 +58,10 @@ impl<T: DeserializeOwned> KeyGroup for T {
         field_names::<T>().to_vec()
     }
 
-    fn take(entries: &mut Entries) -> Result<Self, KeyFault> {
+    fn take(entries: &mut Entries<'_>) -> Result<Self, KeyFault> {
         let names = field_names::<T>();
-        let own = entries.extract_if(.., |(key, _)| names.contains(&&**key)).collect();
-        T::deserialize(&TextValue::Table(own))
+        let own = entries.left.extract_if(.., |(key, _)| names.contains(&&**key)).collect();
+        T::deserialize(TextReader::new(&TextValue::Table(own), entries.context))
     }
 }
 
@@ -51,7 +73,7 @@ macro_rules! group_of_groups {
                 [$(<$part_type as $crate::io::layers::KeyGroup>::names()),+].concat()
             }
 
-            fn take(entries: &mut $crate::io::layers::Entries) -> Result<Self, $crate::io::KeyFault> {
+            fn take(entries: &mut $crate::io::layers::Entries<'_>) -> Result<Self, $crate::io::KeyFault> {
                 Ok(Self { $($part: $crate::io::layers::KeyGroup::take(entries)?),+ })
             }
         }

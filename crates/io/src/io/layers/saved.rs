@@ -7,6 +7,7 @@ use super::checks::rings;
 use super::kinds::LayerKeys;
 use super::{Entries, KeyGroup, RasterFile, SavedCombine, SavedKind, SavedPolygon, each, saved_polygon};
 use super::{SavedShape, Stored};
+use crate::io::lengths::TextContext;
 use crate::io::{KeyFault, TextValue};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{DistanceLayer, Layer, Threats};
@@ -85,8 +86,10 @@ impl SavedLayer {
     ///
     /// # Errors
     /// Fails for the first key that no layer of its kind has, is missing, or has a value of another type.
-    pub fn of_table(table: TextValue) -> Result<Self, KeyFault> {
-        let TextValue::Table(mut entries) = table else { return table.refused("a table") };
+    pub fn of_table(table: TextValue, context: &TextContext) -> Result<Self, KeyFault> {
+        let Some(mut entries) = Entries::of(table, context) else {
+            return Err(KeyFault::here("a layer must be a table."));
+        };
         let Heading { name, kind } = Heading::take(&mut entries)?;
         check_keys(kind, &entries)?;
         let shared = SharedKeys::take(&mut entries)?;
@@ -193,12 +196,12 @@ impl LayerKeys {
 }
 
 /// Checks that a table has only keys of its kind. The advice names those.
-fn check_keys(kind: SavedKind, entries: &Entries) -> Result<(), KeyFault> {
+fn check_keys(kind: SavedKind, entries: &Entries<'_>) -> Result<(), KeyFault> {
     let (shared, own) = (SharedKeys::names(), kind.keys());
     let is_known = |key: &str| shared.contains(&key) || own.contains(&key);
-    let Some((key, _)) = entries.iter().find(|(key, _)| !is_known(key)) else { return Ok(()) };
+    let Some(key) = entries.keys().find(|key| !is_known(key)) else { return Ok(()) };
     let others: Vec<&str> =
-        SavedKind::ALL.iter().filter(|kind| kind.keys().contains(&&**key)).map(|kind| kind.word()).collect();
+        SavedKind::ALL.iter().filter(|kind| kind.keys().contains(&key)).map(|kind| kind.word()).collect();
     if others.is_empty() {
         let known = [Heading::names(), shared, own].concat();
         return Err(KeyFault::unknown_key(key, &known).of_key(key));
@@ -207,13 +210,14 @@ fn check_keys(kind: SavedKind, entries: &Entries) -> Result<(), KeyFault> {
     let sentence = format!(
         "a layer of the kind \"{word}\" has no `{key}`; its own keys are {own}. Kinds with `{key}`: {others}."
     );
-    Err(KeyFault::key(key.clone(), sentence))
+    Err(KeyFault::key(key.to_owned(), sentence))
 }
 
 impl<'de> Deserialize<'de> for SavedLayer {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let table = TextValue::deserialize(from)?;
-        Self::of_table(table).map_err(|fault| D::Error::custom(fault.to_string().trim_end_matches('.')))
+        Self::of_table(table, &TextContext::default())
+            .map_err(|fault| D::Error::custom(fault.to_string().trim_end_matches('.')))
     }
 }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::checks::{point, points, rings};
 use super::{SavedLaw, each};
 use crate::io::KeyFault;
+use crate::io::lengths::SavedLength;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{ShapeList, Threat, ThreatLaw};
 
@@ -21,7 +22,7 @@ pub struct SavedThreat {
     /// Its place.
     pub y: f64,
     /// The distance beyond which there is no risk.
-    pub range: f64,
+    pub range: SavedLength,
     /// The risk at its place.
     #[serde(default = "one")]
     pub peak: f64,
@@ -89,7 +90,7 @@ impl From<SavedThreat> for Threat {
             SavedLaw::Gaussian => ThreatLaw::Gaussian,
             SavedLaw::Disc => ThreatLaw::Disc,
         };
-        Self { at: DVec2::new(x, y), range, peak, law }
+        Self { at: DVec2::new(x, y), range: *range, peak, law }
     }
 }
 
@@ -101,7 +102,7 @@ impl From<Threat> for SavedThreat {
             ThreatLaw::Gaussian => SavedLaw::Gaussian,
             ThreatLaw::Disc => SavedLaw::Disc,
         };
-        Self { x: at.x, y: at.y, range, peak, law }
+        Self { x: at.x, y: at.y, range: range.into(), peak, law }
     }
 }
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use super::*;
 use glam::DVec2;
 
+use crate::io::lengths::TextContext;
 use crate::io::{KeyFault, TextValue};
 use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, FormulaLayer, Layer, LayerId,
@@ -18,7 +19,7 @@ fn saved(json: &str) -> SavedLayer {
 
 fn checked(json: &str) -> Result<SavedLayer, String> {
     let table: TextValue = serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"));
-    let layer = SavedLayer::of_table(table);
+    let layer = SavedLayer::of_table(table, &TextContext::default());
     let layer = layer.and_then(|layer| layer.check(Stored::InFiles).map(|()| layer));
     layer.map_err(|fault| fault.to_string())
 }

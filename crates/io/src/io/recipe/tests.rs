@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::io::layers::SavedLayer;
+use crate::io::lengths::SavedLength;
 use crate::io::settings::SavedParts;
 use crate::io::{Given, PlaceInFile, TextValue};
 use meshbrush_mesh::text::LengthUnit;
@@ -118,9 +119,12 @@ fn error(text: &str) -> ([usize; 2], String) {
 fn a_recipe_with_everything_is_read() {
     let settings = parsed(FULL).unwrap().settings;
     assert_eq!(settings.domain.region.as_deref(), Some(Path::new("sea.geojson")));
-    assert_eq!((settings.mesh.spacing, settings.mesh.max_memory.as_deref()), (Some(0.5), Some("2GB")));
+    assert_eq!(
+        (settings.mesh.spacing, settings.mesh.max_memory.as_deref()),
+        (Some(SavedLength(0.5)), Some("2GB"))
+    );
     let limits = &settings.limits;
-    assert_eq!((limits.h_min, limits.h_risk, limits.h_max), (Some(0.01), Some(0.02), Some(1.0)));
+    assert_eq!([limits.h_min, limits.h_risk, limits.h_max], [0.01, 0.02, 1.0].map(|h| Some(SavedLength(h))));
     assert_eq!((limits.shape, limits.gradation), (Some(1.5), Some(0.3)));
     assert_eq!(settings.domain.parts, Some(SavedParts::Share(0.01)));
     let names: Vec<&str> = settings.layer.iter().map(|layer| layer.shown_name()).collect();
@@ -131,7 +135,7 @@ fn a_recipe_with_everything_is_read() {
     assert_eq!(paths.routes[0][1], [24.5, 38.0]);
     assert_eq!((paths.routes.len(), settings.pins.at.len()), (2, 2));
     assert_eq!((paths.length_weight, paths.risk_weight), (Some(2.0), Some(7.5)));
-    assert_eq!(paths.clearance, Some(0.125));
+    assert_eq!(paths.clearance, Some(SavedLength(0.125)));
     let regions: Vec<&str> = settings.keep_out.iter().filter_map(|region| region.name.as_deref()).collect();
     assert_eq!(regions, ["Minefield", "closed.geojson"]);
     assert!(settings.files().any(|file| file == Path::new("zones/closed.geojson")));

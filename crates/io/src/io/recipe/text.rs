@@ -41,7 +41,7 @@ impl RecipeText {
             let sentence = format!("this is not valid TOML: {}.", excerpt(300, error.message().trim()));
             self.pointing(error.span().unwrap_or(0..0), &sentence, None)
         })?;
-        SavedSettings::of_tables(TextValue::from_toml(tables.get_ref()), None)
+        SavedSettings::of_tables(&TextValue::from_toml(tables.get_ref()), None)
             .map_err(|fault| self.error(&fault))
     }
 

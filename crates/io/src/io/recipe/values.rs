@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::super::layers::{DepthKeys, GridKeys, LayerKeys, PaintKeys, SavedLayer};
-use super::super::settings::{SavedOutput, SavedSettings, WrittenLengths};
+use super::super::lengths::{SavedLength, TextContext};
+use super::super::settings::{SavedOutput, SavedSettings};
+use super::super::values::TextReader;
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
 use super::notes::notes_on;
@@ -59,7 +61,7 @@ impl SavedSettings {
     /// # Errors
     /// Fails for the first key or value that no recipe has, and for files that are not there.
     pub fn of_value(tables: &TextValue, given: &Given) -> Result<Self, KeyFault> {
-        Self::of_tables(tables.clone(), None)?.checked(given)
+        Self::of_tables(tables, None)?.checked(given)
     }
 
     /// Returns the settings that tables state for a document that is there, whose lengths are in `unit`.
@@ -67,20 +69,22 @@ impl SavedSettings {
     /// # Errors
     /// Fails as [`Self::of_value`] does, and for lengths in another unit.
     pub fn of_value_for(tables: &TextValue, unit: LengthUnit) -> Result<Self, KeyFault> {
-        let settings = Self::of_tables(tables.clone(), Some(unit))?;
+        let settings = Self::of_tables(tables, Some(unit))?;
         settings.lengths.check(unit)?;
         settings.checked(&Given::default())
     }
 
     /// Returns the settings that tables state, with numbers in the place of lengths with units.
-    pub(super) fn of_tables(mut tables: TextValue, unit: Option<LengthUnit>) -> Result<Self, KeyFault> {
-        let lengths = WrittenLengths::take(&mut tables, unit)?;
-        let tables = SavedSettings::<TextValue>::deserialize(&tables)?;
-        let layer_of =
-            |(index, table)| SavedLayer::of_table(table).map_err(|fault| fault.within(index).within("layer"));
-        Ok(tables
-            .with_layers(|layers| layers.into_iter().enumerate().map(layer_of).collect())?
-            .with_lengths(lengths))
+    pub(super) fn of_tables(tables: &TextValue, unit: Option<LengthUnit>) -> Result<Self, KeyFault> {
+        let context = TextContext::new(tables, unit);
+        let tables = SavedSettings::<TextValue>::deserialize(TextReader::new(tables, &context))?;
+        let layer_of = |(index, table): (usize, TextValue)| {
+            let read = || context.within(index.into(), || SavedLayer::of_table(table, &context));
+            let layer = context.within("layer".into(), read);
+            layer.map_err(|fault| fault.within(index).within("layer"))
+        };
+        let settings = tables.with_layers(|layers| layers.into_iter().enumerate().map(layer_of).collect())?;
+        Ok(settings.with_lengths(context.into_written()))
     }
 
     fn checked(mut self, given: &Given) -> Result<Self, KeyFault> {
@@ -109,12 +113,12 @@ impl SavedLayer {
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
     pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
-        let mut table = table.clone();
-        let lengths = WrittenLengths::take(&mut table, Some(others.unit))?;
+        let context = TextContext::new(table, Some(others.unit));
+        let layer = Self::of_table(table.clone(), &context)?;
+        let lengths = context.into_written();
         lengths.check(others.unit)?;
-        let layer = Self::of_table(table)?;
         let mut alone = SavedSettings { layer: vec![layer], ..SavedSettings::default() };
-        alone.limits.h_min = others.smallest.then_some(1.0);
+        alone.limits.h_min = others.smallest.then_some(SavedLength(1.0));
         let checked = alone.place_files(&|name| found(given, name)).and_then(|()| {
             let mut as_recipe = alone.clone();
             // Unlike a recipe, a document has paint layers of its own.
@@ -166,7 +170,7 @@ impl SavedOutput {
     /// # Errors
     /// Fails for the first key or value that no output has.
     pub fn of_value(table: &TextValue) -> Result<Self, KeyFault> {
-        Self::deserialize(table)
+        Self::deserialize(TextReader::plain(table))
     }
 }
 

@@ -6,8 +6,9 @@ use super::{
     RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOutput, SavedParts, SavedPins,
     SavedSettings, SavedTreatment,
 };
-use crate::io::layers::{FindFile, SavedKind, Stored, compiled, each, point, positive_length, rect_of};
-use crate::io::{KeyFault, KeyStep, RasterFormat};
+use crate::io::layers::{FindFile, SavedKind, Stored, compiled, each, point, rect_of};
+use crate::io::lengths::SavedLength;
+use crate::io::{KeyFault, RasterFormat};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
 use meshbrush_core::domain::{DepthContour, DepthContourError};
@@ -150,7 +151,7 @@ impl SavedDomain {
         self.projection()?;
         self.assumed()?;
         self.check_contour()?;
-        self.boundary_diameter.map_or(Ok(()), |diameter| length("boundary_diameter", diameter))?;
+        checked("boundary_diameter", self.boundary_diameter)?;
         if let Some(SavedParts::Share(share)) = self.parts
             && !(0.0..=1.0).contains(&share)
         {
@@ -261,8 +262,8 @@ impl SavedDomain {
     fn contour(&self) -> DepthContour {
         DepthContour {
             level: self.contour.unwrap_or(0.0),
-            smallest_island: self.smallest_island.unwrap_or(0.0),
-            smallest_inlet: self.smallest_inlet.unwrap_or(0.0),
+            smallest_island: self.smallest_island.map_or(0.0, |area| area.0),
+            smallest_inlet: self.smallest_inlet.map_or(0.0, |width| width.0),
         }
     }
 
@@ -306,7 +307,7 @@ impl SavedDomain {
 
 impl SavedMesh {
     fn check(&self) -> Result<(), KeyFault> {
-        self.spacing.map_or(Ok(()), |spacing| length("spacing", spacing))?;
+        checked("spacing", self.spacing)?;
         if let Some(count) = self.max_triangles
             && !(2..=MOST_TRIANGLES).contains(&count)
         {
@@ -334,14 +335,14 @@ impl SavedLimits {
     /// # Errors
     /// Fails for the first one that cannot be used.
     pub fn check(&self) -> Result<(), KeyFault> {
-        self.h_min.map_or(Ok(()), |h_min| length("h_min", h_min))?;
-        self.h_risk.map_or(Ok(()), |h_risk| length("h_risk", h_risk))?;
-        self.h_max.map_or(Ok(()), |h_max| length("h_max", h_max))?;
+        let h_min = checked("h_min", self.h_min)?;
+        let h_risk = checked("h_risk", self.h_risk)?;
+        let h_max = checked("h_max", self.h_max)?;
         // Where one end is not given, another takes its place: only the rest is checked then.
-        let least = [self.h_risk, self.h_max].into_iter().flatten().reduce(f64::min);
-        let h_min = self.h_min.or(least).unwrap_or(1.0);
-        let h_risk = self.h_risk.unwrap_or(h_min);
-        let h_max = self.h_max.unwrap_or(h_risk.max(h_min));
+        let least = [h_risk, h_max].into_iter().flatten().reduce(f64::min);
+        let h_min = h_min.or(least).unwrap_or(1.0);
+        let h_risk = h_risk.unwrap_or(h_min);
+        let h_max = h_max.unwrap_or(h_risk.max(h_min));
         let transfer = Transfer { h_min, h_risk, h_max, shape: self.shape.unwrap_or(1.0) };
         let wrong_key = match () {
             _ if h_min > h_max => "h_max",
@@ -369,6 +370,7 @@ impl SavedPins {
     }
 }
 
-fn length(key: impl Into<KeyStep>, value: f64) -> Result<(), KeyFault> {
-    positive_length(value).map(|_| ()).map_err(|fault| fault.within(key))
+/// Returns a length, if it is given.
+fn checked(key: &'static str, length: Option<SavedLength>) -> Result<Option<f64>, KeyFault> {
+    length.map(|length| length.checked(key)).transpose()
 }

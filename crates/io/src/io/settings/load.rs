@@ -143,7 +143,7 @@ impl<L> SavedSettings<L> {
         self.lengths.check(unit)?;
         let bounds = domain.bounds;
         let marks = self.domain.marks_on(&domain).before(marks);
-        let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / DEFAULT_CELLS);
+        let spacing = self.mesh.spacing.map_or(bounds.size().max_element() / DEFAULT_CELLS, Into::into);
         let lattice = Lattice::covering(bounds, spacing, defaults.most_coarse).map_err(CoarseError::from)?;
         let coarse_diameter = domain.longest_on_earth(bisection_edge_length(lattice.spacing(), 0));
         let transfer = self.transfer::<S>(coarse_diameter);
@@ -192,7 +192,7 @@ impl<L> SavedSettings<L> {
         let is_free = bounds.is_none() && inside.is_none() && self.domain.outline_file().is_none();
         let mut rasters = layers.iter().filter_map(|layer| layer.kind.get::<Surface>()?.source.raster());
         let source = rasters.next_back().filter(|_| is_free)?;
-        domain_on_samples(source.raster.raster(), self.mesh.spacing)
+        domain_on_samples(source.raster.raster(), self.mesh.spacing.map(Into::into))
     }
 
     fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {
@@ -211,11 +211,11 @@ impl<L> SavedSettings<L> {
 
     /// Returns the limits of h̄ and the curve from risk to diameter.
     fn transfer<S: Storage<Layer = L>>(&self, coarse_diameter: f64) -> Transfer {
-        let h_min = self.limits.h_min.unwrap_or(f64::MIN_POSITIVE);
+        let h_min = self.limits.h_min.map_or(f64::MIN_POSITIVE, Into::into);
         let uses_scale = self.layer.iter().any(|layer| S::saved(layer).keys.uses_scale());
-        let h_risk = self.limits.h_risk.unwrap_or(h_min);
+        let h_risk = self.limits.h_risk.map_or(h_min, Into::into);
         let widest = if uses_scale { coarse_diameter.max(h_risk) } else { f64::MAX };
-        let h_max = self.limits.h_max.unwrap_or(widest);
+        let h_max = self.limits.h_max.map_or(widest, Into::into);
         Transfer { h_min, h_risk, h_max, shape: self.limits.shape.unwrap_or(1.0) }
     }
 

@@ -6,7 +6,6 @@
 //! back. A [`Storage`] reads what tables and layers name: files beside a recipe, or parts of a project.
 
 mod check;
-mod lengths;
 mod load;
 mod of_settings;
 mod opening;
@@ -15,7 +14,6 @@ mod paths;
 mod tables;
 mod words;
 
-pub use lengths::{METRES, WrittenLengths};
 pub use load::{LoadingDefaults, ReadRegion, RegionCoordinates, Storage};
 pub use opening::{SavedOpen, SavedOpenings};
 pub use tables::{

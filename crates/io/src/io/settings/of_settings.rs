@@ -2,8 +2,9 @@ use glam::DVec2;
 
 use super::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedPaths, SavedPins, SavedSettings, SavedTreatment,
-    SavedUnit, WrittenLengths, saved_marks,
+    SavedUnit, saved_marks,
 };
+use crate::io::lengths::WrittenLengths;
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryTreatment, DomainShape};
 use meshbrush_core::field::Transfer;
@@ -18,7 +19,7 @@ impl<L> SavedSettings<L> {
     /// paths stay out of: the caller decides which of their data are in files.
     pub fn of(settings: &Settings, region_file: &str, layers: Vec<L>, keep_out: Vec<SavedKeepOut>) -> Self {
         let mesh = SavedMesh {
-            spacing: Some(settings.spacing),
+            spacing: Some(settings.spacing.into()),
             rule: Some(settings.rule.into()),
             max_triangles: Some(settings.max_triangles),
             max_memory: (settings.max_memory != Settings::MAX_MEMORY)
@@ -27,9 +28,9 @@ impl<L> SavedSettings<L> {
         };
         let Transfer { h_min, h_risk, h_max, shape } = settings.transfer;
         let limits = SavedLimits {
-            h_min: Some(h_min),
-            h_risk: (h_risk != h_min).then_some(h_risk),
-            h_max: Some(h_max),
+            h_min: Some(h_min.into()),
+            h_risk: (h_risk != h_min).then_some(h_risk.into()),
+            h_max: Some(h_max.into()),
             shape: (shape != 1.0).then_some(shape),
             gradation: settings.gradation,
         };
@@ -72,7 +73,7 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
             bounds: Some([min.x, min.y, max.x, max.y]),
             unit: Some(rectangle.unit.unwrap_or(SavedUnit::None)),
             boundary: Some(SavedTreatment::of(settings.boundary)),
-            boundary_diameter: settings.boundary.diameter(),
+            boundary_diameter: settings.boundary.diameter().map(Into::into),
             parts: is_fitted.then(|| settings.cleaning.parts.into()),
             keep_pinches: (is_fitted && settings.cleaning.keeps_pinches).then_some(true),
             ..rectangle

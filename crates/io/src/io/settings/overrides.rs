@@ -48,15 +48,15 @@ impl<L> SavedSettings<L> {
         let Transfer { h_min, h_risk, h_max, shape } = settings.transfer;
         // As in a recipe: the curve ends at the smallest diameter, unless another end is given.
         let own_risk = (h_risk != h_min).then_some(h_risk);
-        let h_min = self.limits.h_min.unwrap_or(h_min);
+        let h_min = self.limits.h_min.map_or(h_min, Into::into);
         let transfer = Transfer {
             h_min,
-            h_risk: self.limits.h_risk.or(own_risk).unwrap_or(h_min),
-            h_max: self.limits.h_max.unwrap_or(h_max),
+            h_risk: self.limits.h_risk.map(Into::into).or(own_risk).unwrap_or(h_min),
+            h_max: self.limits.h_max.map_or(h_max, Into::into),
             shape: self.limits.shape.unwrap_or(shape),
         };
-        let spacing = self.mesh.spacing.unwrap_or(settings.spacing);
-        let diameter = self.domain.boundary_diameter.or(settings.boundary.diameter());
+        let spacing = self.mesh.spacing.map_or(settings.spacing, Into::into);
+        let diameter = self.domain.boundary_diameter.map(Into::into).or(settings.boundary.diameter());
         let diameter = diameter.unwrap_or_else(|| {
             BoundaryTreatment::default_diameter(settings.domain.longest_on_earth(spacing))
         });

@@ -22,7 +22,7 @@ impl SavedPaths {
     pub(super) fn of(plan: &PathPlan) -> Self {
         let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
         let routes = plan.routes.iter().map(route).collect();
-        let clearance = Some(plan.clearance).filter(|&clearance| clearance != 0.0);
+        let clearance = (plan.clearance != 0.0).then_some(plan.clearance.into());
         let default = Self { routes, names: plan.names.clone(), clearance, ..Self::default() };
         match &plan.cost {
             cost if *cost == PathCost::default() => default,
@@ -46,7 +46,7 @@ impl SavedPaths {
 
     /// Returns the clearance of paths, in world units.
     pub(super) fn checked_clearance(&self) -> Result<f64, KeyFault> {
-        let clearance = self.clearance.unwrap_or(0.0);
+        let clearance = self.clearance.map_or(0.0, Into::into);
         let plan = PathPlan { clearance, ..PathPlan::default() };
         plan.check().map_err(|error| KeyFault::value("clearance", error.to_string()))?;
         Ok(clearance)

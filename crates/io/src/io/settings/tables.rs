@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::{SavedName, SavedOpenings, SavedPieceType, SavedRule, SavedUnit, WrittenLengths};
+use super::{SavedName, SavedOpenings, SavedPieceType, SavedRule, SavedUnit};
 use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
+use crate::io::lengths::{GroundArea, GroundLength, METRES, SavedLength, WrittenLengths};
 use meshbrush_mesh::mesh::KeptParts;
 
 /// All tables. `L` is a layer, with what says where its data are.
@@ -66,6 +67,16 @@ impl<L> SavedSettings<L> {
     }
 }
 
+impl<L> SavedSettings<L> {
+    /// Takes lengths with units: those in metres need a plane in metres.
+    pub(in crate::io) fn with_lengths(mut self, lengths: WrittenLengths) -> Self {
+        if lengths.are_metric() && self.domain.outline_file().is_some() {
+            self.domain.projection.get_or_insert_with(|| METRES.to_owned());
+        }
+        Self { lengths, ..self }
+    }
+}
+
 fn is_default<T: Default + PartialEq>(table: &T) -> bool {
     *table == T::default()
 }
@@ -98,10 +109,10 @@ pub struct SavedDomain {
     pub positive: Option<SavedPositive>,
     /// The area of the smallest island, and of the smallest water, of the contour.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub smallest_island: Option<f64>,
+    pub smallest_island: Option<GroundArea>,
     /// The width of the narrowest inlet of the contour.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub smallest_inlet: Option<f64>,
+    pub smallest_inlet: Option<GroundLength>,
     /// Whether the domain is where the grid has values.
     #[serde(skip_serializing_if = "is_no")]
     pub outside_nodata: bool,
@@ -121,7 +132,7 @@ pub struct SavedDomain {
     pub boundary: Option<SavedTreatment>,
     /// Largest diameter of a triangle on the outline.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub boundary_diameter: Option<f64>,
+    pub boundary_diameter: Option<SavedLength>,
     /// The parts of the mesh that stay.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parts: Option<SavedParts>,
@@ -148,7 +159,7 @@ pub struct SavedDomain {
 pub struct SavedMesh {
     /// Longest side of a coarse cell.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spacing: Option<f64>,
+    pub spacing: Option<SavedLength>,
     /// Which points of a triangle count.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rule: Option<SavedRule>,
@@ -169,13 +180,13 @@ pub struct SavedMesh {
 pub struct SavedLimits {
     /// Smallest target diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub h_min: Option<f64>,
+    pub h_min: Option<SavedLength>,
     /// Target diameter at risk 1; the smallest where it is missing.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub h_risk: Option<f64>,
+    pub h_risk: Option<SavedLength>,
     /// Largest target diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub h_max: Option<f64>,
+    pub h_max: Option<SavedLength>,
     /// The exponent of the curve from risk to diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<f64>,
@@ -205,7 +216,7 @@ pub struct SavedPaths {
     pub cost: Option<String>,
     /// The least distance from the outline of the domain and from keep-out regions, in world units.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub clearance: Option<f64>,
+    pub clearance: Option<SavedLength>,
 }
 
 /// `[[keep_out]]`

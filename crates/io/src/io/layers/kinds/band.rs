@@ -1,10 +1,10 @@
 use serde::{Deserialize, Serialize};
 
-use super::super::checks::positive_length;
 use super::super::{LayerData, SavedLayer, Stored};
 use super::{GridKeys, KindKeys, LoadKind, SavedKind};
 use crate::io::KeyFault;
 use crate::io::layers::key_group::group_of_groups;
+use crate::io::lengths::SavedLength;
 use meshbrush_core::layers::{BandLayer, LayerKind};
 
 /// The keys of a band.
@@ -25,14 +25,14 @@ pub struct StepKeys {
     /// The least and the greatest value.
     pub between: [f64; 2],
     /// The target diameter there, in world units.
-    pub diameter: f64,
+    pub diameter: SavedLength,
 }
 
 group_of_groups!(BandKeys { grid: GridKeys, step: StepKeys });
 
 impl BandKeys {
     pub(super) fn of(BandLayer { between, diameter, .. }: &BandLayer) -> Self {
-        let step = StepKeys { between: *between, diameter: *diameter };
+        let step = StepKeys { between: *between, diameter: SavedLength(*diameter) };
         Self { grid: GridKeys::default(), step }
     }
 }
@@ -45,7 +45,7 @@ impl KindKeys for BandKeys {
             let sentence = "write two finite numbers, the least value first.";
             return Err(KeyFault::value("between", sentence));
         }
-        positive_length(self.step.diameter).map(|_| ()).map_err(|fault| fault.within("diameter"))
+        self.step.diameter.checked("diameter").map(|_| ())
     }
 
     fn grid(&self) -> Option<&GridKeys> {
@@ -61,6 +61,6 @@ impl LoadKind for BandKeys {
     fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
         let StepKeys { between, diameter } = self.step;
         let (source, _) = layer.raster_source(data)?;
-        Ok(LayerKind::Band(BandLayer { source, between, diameter }))
+        Ok(LayerKind::Band(BandLayer { source, between, diameter: *diameter }))
     }
 }

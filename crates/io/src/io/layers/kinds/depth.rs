@@ -1,9 +1,10 @@
 use serde::{Deserialize, Serialize};
 
-use super::super::checks::{number_where, positive_length};
+use super::super::checks::number_where;
 use super::super::{Entries, KeyGroup, LayerData, SavedDepthSize, SavedLayer, SavedPositive, Stored};
 use super::{GridKeys, KindKeys, LoadKind, SavedKind};
 use crate::io::layers::key_group::group_of_groups;
+use crate::io::lengths::SavedLength;
 use crate::io::{KeyFault, ValueFacts, ValueUnit};
 use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth};
 
@@ -88,7 +89,7 @@ pub struct SlopeKeys {
     pub triangles: f64,
     /// The side of the square over which heights are averaged, in metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub smoothing: Option<f64>,
+    pub smoothing: Option<SavedLength>,
 }
 
 /// A Courant number of a wave.
@@ -132,13 +133,13 @@ impl KeyGroup for DepthSizeKeys {
         names
     }
 
-    fn take(entries: &mut Entries) -> Result<Self, KeyFault> {
+    fn take(entries: &mut Entries<'_>) -> Result<Self, KeyFault> {
         let SizeTag { size } = SizeTag::take(entries)?;
         let (all, own) = (Self::names(), size.keys());
         let is_foreign = |key: &str| all.contains(&key) && !own.contains(&key);
-        if let Some((key, _)) = entries.iter().find(|(key, _)| is_foreign(key)) {
+        if let Some(key) = entries.keys().find(|key| is_foreign(key)) {
             let sentence = format!("depths with size = \"{}\" have no `{key}`.", size.word());
-            return Err(KeyFault::key(key.clone(), sentence));
+            return Err(KeyFault::key(key.to_owned(), sentence));
         }
         Ok(match size {
             SavedDepthSize::Nothing => Self::Nothing,
@@ -157,7 +158,7 @@ impl DepthSizeKeys {
                 Self::Wavelength(WavelengthKeys { period, triangles })
             }
             DepthRule::Slope { triangles, smoothing } => {
-                Self::Slope(SlopeKeys { triangles, smoothing: (smoothing > 0.0).then_some(smoothing) })
+                Self::Slope(SlopeKeys { triangles, smoothing: (smoothing > 0.0).then_some(smoothing.into()) })
             }
             DepthRule::Courant { time_step, number } => {
                 Self::Courant(CourantKeys { time_step, courant: number })
@@ -178,7 +179,7 @@ impl DepthSizeKeys {
             },
             Self::Slope(SlopeKeys { triangles, smoothing }) => DepthRule::Slope {
                 triangles: positive("triangles", triangles)?,
-                smoothing: smoothing.map_or(Ok(0.0), positive_length).map_err(|f| f.within("smoothing"))?,
+                smoothing: smoothing.map_or(Ok(0.0), |side| side.checked("smoothing"))?,
             },
             Self::Courant(CourantKeys { time_step, courant }) => DepthRule::Courant {
                 time_step: positive("time_step", time_step)?,

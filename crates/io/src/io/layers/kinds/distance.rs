@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::super::checks::{number_where, positive_length};
+use super::super::checks::number_where;
 use super::super::{LayerData, SavedDistanceTo, SavedLayer, SavedShape, Stored, checked_shapes};
 use super::{KindKeys, LayerKeys, LoadKind, SavedKind};
 use crate::io::KeyFault;
 use crate::io::layers::key_group::group_of_groups;
+use crate::io::lengths::SavedLength;
 use crate::io::settings::SavedBoundaryType;
 use meshbrush_core::domain::PieceChoice;
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, LayerKind, ShapeList, Shapes};
@@ -84,7 +85,7 @@ pub struct ShapeKeys {
 #[serde(deny_unknown_fields)]
 pub struct StripKeys {
     /// The width, in world units. Within it the distance is 0.
-    pub width: f64,
+    pub width: SavedLength,
 }
 
 /// How a target diameter grows with a distance.
@@ -92,12 +93,12 @@ pub struct StripKeys {
 #[serde(deny_unknown_fields)]
 pub struct GrowthKeys {
     /// The target diameter at distance 0, in world units.
-    pub at_zero: f64,
+    pub at_zero: SavedLength,
     /// Growth of the target diameter by unit of distance, dimensionless.
     pub slope: f64,
     /// The distance beyond which nothing is asked for, in world units; without it there is no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub range: Option<f64>,
+    pub range: Option<SavedLength>,
 }
 
 group_of_groups!(TargetKeys { boundary: BoundaryKeys, shapes: ShapeKeys });
@@ -127,11 +128,12 @@ impl PlacedShapes {
 
 /// Returns the keys of a distance without its shapes.
 pub(super) fn of(DistanceLayer { to, at_zero, slope, range }: &DistanceLayer) -> LayerKeys {
-    let range = range.is_finite().then_some(*range);
-    let growth = GrowthKeys { at_zero: *at_zero, slope: *slope, range };
+    let range = range.is_finite().then_some((*range).into());
+    let growth = GrowthKeys { at_zero: SavedLength(*at_zero), slope: *slope, range };
     match to {
         DistanceTo::Corridor { width, .. } => {
-            CorridorKeys { strip: StripKeys { width: *width }, growth, ..Default::default() }.into()
+            CorridorKeys { strip: StripKeys { width: SavedLength(*width) }, growth, ..Default::default() }
+                .into()
         }
         DistanceTo::Outline | DistanceTo::Coasts | DistanceTo::Pieces(_) | DistanceTo::Shapes { .. } => {
             let target = TargetKeys { boundary: BoundaryKeys::of(to), ..Default::default() };
@@ -200,17 +202,17 @@ impl ShapeKeys {
 
 impl GrowthKeys {
     fn check(&self) -> Result<(), KeyFault> {
-        positive_length(self.at_zero).map_err(|fault| fault.within("at_zero"))?;
+        self.at_zero.checked("at_zero")?;
         let rule = "the growth by unit of distance must be 0 or more, and finite";
         number_where(self.slope, self.slope >= 0.0, rule).map_err(|fault| fault.within("slope"))?;
-        let range = self.range.map(positive_length).transpose();
-        range.map(|_| ()).map_err(|fault| fault.within("range"))
+        self.range.map_or(Ok(()), |range| range.checked("range").map(|_| ()))
     }
 
     /// Returns a layer that asks for this by the distance to `to`.
     fn layer_of(&self, to: DistanceTo) -> LayerKind {
         let Self { at_zero, slope, range } = *self;
-        LayerKind::Distance(DistanceLayer { to, at_zero, slope, range: range.unwrap_or(f64::INFINITY) })
+        let range = range.map_or(f64::INFINITY, |range| *range);
+        LayerKind::Distance(DistanceLayer { to, at_zero: *at_zero, slope, range })
     }
 }
 
@@ -244,7 +246,7 @@ impl LoadKind for DistanceKeys {
 impl KindKeys for CorridorKeys {
     fn check(&self, _: Stored) -> Result<(), KeyFault> {
         self.along.along()?;
-        positive_length(self.strip.width).map_err(|fault| fault.within("width"))?;
+        self.strip.width.checked("width")?;
         self.growth.check()
     }
 
@@ -260,6 +262,6 @@ impl KindKeys for CorridorKeys {
 impl LoadKind for CorridorKeys {
     fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
         let lines = self.along.along()?.load(layer, data)?;
-        Ok(self.growth.layer_of(DistanceTo::Corridor { lines, width: self.strip.width }))
+        Ok(self.growth.layer_of(DistanceTo::Corridor { lines, width: *self.strip.width }))
     }
 }

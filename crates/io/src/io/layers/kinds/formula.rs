@@ -3,8 +3,10 @@ use serde::{Deserialize, Serialize};
 use super::super::{LayerData, SavedLayer, SavedQuantity, Stored, compiled};
 use super::{KindKeys, LoadKind};
 use crate::io::KeyFault;
+use crate::io::lengths::{Measure, TextContext};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{FormulaLayer, LayerKind};
+use meshbrush_mesh::text::Length;
 
 /// The keys of a formula.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +47,16 @@ impl KindKeys for FormulaKeys {
 }
 
 impl LoadKind for FormulaKeys {
+    /// A target diameter may be a length with a unit.
+    fn read_lengths(&mut self, context: &TextContext) -> Result<(), KeyFault> {
+        if self.quantity == SavedQuantity::Diameter && Length::with_unit(&self.formula).is_some() {
+            let read = || context.number(Measure::Length, &self.formula);
+            let length = context.within("formula".into(), read).map_err(|fault| fault.within("formula"))?;
+            self.formula = length.to_string();
+        }
+        Ok(())
+    }
+
     fn load<D: LayerData>(&self, _: &SavedLayer, _: &mut D) -> Result<LayerKind, D::Error> {
         Ok(LayerKind::Formula(FormulaLayer { quantity: self.quantity.into(), formula: self.compiled()? }))
     }

@@ -25,13 +25,14 @@ pub use distance::{BoundaryKeys, CorridorKeys, DistanceKeys, GrowthKeys, ShapeKe
 pub use formula::FormulaKeys;
 pub use grid::GridKeys;
 pub use paint::PaintKeys;
-pub use raster::{RasterKeys, ReadingKeys};
+pub use raster::{RasterKeys, ReadingKeys, SavedKnot};
 pub use surface::{GoalKeys, SurfaceKeys};
 pub use threats::ThreatKeys;
 pub use widths::{FeatureSizeKeys, StraitKeys, WidthKeys};
 
 use super::{Entries, KeyGroup, LayerData, SavedLayer, Stored};
 use crate::io::KeyFault;
+use crate::io::lengths::TextContext;
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_core::raster::RasterValues;
 
@@ -88,6 +89,11 @@ pub trait KindKeys {
 pub(super) trait LoadKind {
     /// Returns the kind, with its data. The keys are those of `layer`.
     fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error>;
+
+    /// Reads lengths in the place of something else.
+    fn read_lengths(&mut self, _: &TextContext) -> Result<(), KeyFault> {
+        Ok(())
+    }
 }
 
 /// Makes the kinds of layers from their list: names, words, names of layers, and the structs of their keys.
@@ -133,8 +139,14 @@ macro_rules! saved_kinds {
             }
 
             /// Takes the keys of a kind out of a table.
-            pub(super) fn take(kind: SavedKind, entries: &mut Entries) -> Result<Self, KeyFault> {
-                match kind { $(SavedKind::$kind => KeyGroup::take(entries).map(Self::$kind)),+ }
+            pub(super) fn take(kind: SavedKind, entries: &mut Entries<'_>) -> Result<Self, KeyFault> {
+                match kind {
+                    $(SavedKind::$kind => {
+                        let mut keys = <$keys as KeyGroup>::take(entries)?;
+                        keys.read_lengths(entries.context())?;
+                        Ok(Self::$kind(keys))
+                    })+
+                }
             }
 
             pub(super) fn load<D: LayerData>(

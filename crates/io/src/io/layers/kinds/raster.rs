@@ -6,6 +6,7 @@ use super::super::checks::{number_where, positive_length};
 use super::super::{LayerData, SavedLayer, SavedQuantity, Stored, each};
 use super::{GridKeys, KindKeys, LoadKind, SavedKind};
 use crate::io::layers::key_group::group_of_groups;
+use crate::io::lengths::SavedLength;
 use crate::io::{KeyFault, RasterFormat};
 use meshbrush_core::layers::{LayerKind, RasterLayer, RasterReading, ValueCurve};
 use meshbrush_core::raster::RasterValues;
@@ -23,6 +24,10 @@ pub struct RasterKeys {
 
 group_of_groups!(RasterKeys { grid: GridKeys, reading: ReadingKeys });
 
+/// A value of a raster, and the target diameter there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SavedKnot(pub f64, pub SavedLength);
+
 /// What the values of a raster mean: one of the keys says it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -32,7 +37,13 @@ pub struct ReadingKeys {
     pub read_as: Option<SavedQuantity>,
     /// Pairs of a value and the target diameter there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub curve: Option<Vec<[f64; 2]>>,
+    pub curve: Option<Vec<SavedKnot>>,
+}
+
+impl SavedKnot {
+    fn of([value, diameter]: &[f64; 2]) -> Self {
+        Self(*value, SavedLength(*diameter))
+    }
 }
 
 impl ReadingKeys {
@@ -43,8 +54,11 @@ impl ReadingKeys {
             RasterReading::Error => Some(SavedQuantity::Error),
             RasterReading::Curve(_) => None,
         };
-        let curve =
-            if let RasterReading::Curve(curve) = reading { Some(curve.knots().to_vec()) } else { None };
+        let curve = if let RasterReading::Curve(curve) = reading {
+            Some(curve.knots().iter().map(SavedKnot::of).collect())
+        } else {
+            None
+        };
         Self { read_as, curve }
     }
 
@@ -111,18 +125,18 @@ impl LoadKind for RasterKeys {
     }
 }
 
-fn curve(knots: &[[f64; 2]]) -> Result<ValueCurve, KeyFault> {
+fn curve(knots: &[SavedKnot]) -> Result<ValueCurve, KeyFault> {
     if knots.is_empty() {
         return Err(KeyFault::value("curve", "a curve needs one pair [value, diameter] at least."));
     }
-    each("curve", knots, |&[value, diameter]| {
+    let knots = each("curve", knots, |&SavedKnot(value, diameter)| {
         number_where(value, true, "a value of the raster must be finite")?;
-        positive_length(diameter).map(|_| ())
+        positive_length(*diameter).map(|diameter| [value, diameter])
     })?;
     let unordered = knots.windows(2).position(|pair| pair[0][0] >= pair[1][0]);
     if let Some(first) = unordered {
         let sentence = "the values of a curve must ascend, and none may come twice.";
         return Err(KeyFault::value("curve", sentence).at(first + 1));
     }
-    ValueCurve::new(knots.to_vec()).map_err(|error| KeyFault::value("curve", error.to_string()))
+    ValueCurve::new(knots).map_err(|error| KeyFault::value("curve", error.to_string()))
 }

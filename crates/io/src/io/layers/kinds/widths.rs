@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::checks::{number_where, positive_length};
+use super::super::checks::number_where;
 use super::super::{LayerData, SavedLayer, Stored};
 use super::{KindKeys, LoadKind};
 use crate::io::KeyFault;
+use crate::io::lengths::SavedLength;
 use meshbrush_core::layers::{FeatureSize, LayerKind, MedialAxis, MedialBalls, Straits};
 
 /// Triangles across the water between two widths.
@@ -15,9 +16,9 @@ pub struct WidthKeys {
     /// Triangles across.
     pub across: f64,
     /// The least width that counts, in world units.
-    pub width_from: f64,
+    pub width_from: SavedLength,
     /// The greatest width, in world units.
-    pub width_to: f64,
+    pub width_to: SavedLength,
 }
 
 /// The keys of straits.
@@ -32,31 +33,30 @@ pub struct FeatureSizeKeys(pub WidthKeys);
 
 impl WidthKeys {
     fn between(&self) -> [f64; 2] {
-        [self.width_from, self.width_to]
+        [*self.width_from, *self.width_to]
     }
 
     fn check(&self) -> Result<(), KeyFault> {
         let Self { across, width_from, width_to } = *self;
         number_where(across, across >= 1.0, "a number of triangles must be 1 or more, and finite")
             .map_err(|fault| fault.within("across"))?;
-        positive_length(width_from).map_err(|fault| fault.within("width_from"))?;
-        positive_length(width_to)
-            .and_then(|to| number_where(to, to > width_from, "it must be above width_from"))
-            .map(|_| ())
-            .map_err(|fault| fault.within("width_to"))
+        width_from.checked("width_from")?;
+        let to = width_to.checked("width_to")?;
+        let to = number_where(to, width_to > width_from, "it must be above width_from");
+        to.map(|_| ()).map_err(|fault| fault.within("width_to"))
     }
 }
 
 impl StraitKeys {
     pub(super) fn of(Straits { across, found }: &Straits) -> Self {
-        let [width_from, width_to] = found.between();
+        let [width_from, width_to] = found.between().map(SavedLength);
         Self(WidthKeys { across: *across, width_from, width_to })
     }
 }
 
 impl FeatureSizeKeys {
     pub(super) fn of(FeatureSize { across, found }: &FeatureSize) -> Self {
-        let [width_from, width_to] = found.between();
+        let [width_from, width_to] = found.between().map(SavedLength);
         Self(WidthKeys { across: *across, width_from, width_to })
     }
 }

@@ -1,38 +1,142 @@
-//! Lengths with units in a text: `"40 km"` in place of 40000.
+//! Lengths with units in a text: `"40 km"` in place of 40000. The type of a field says that it is a length.
 
+use std::cell::RefCell;
+use std::ops::Deref;
 use std::str::FromStr;
 
-use super::SavedSettings;
-use crate::io::{KeyFault, KeyStep, TextValue};
+use serde::{Deserialize, Serialize};
+
+use super::layers::positive_length;
+use super::{KeyFault, KeyStep, TextValue};
 use meshbrush_mesh::text::{Length, LengthUnit, area, excerpt};
-
-/// The keys with a length, in whichever table they are.
-const KEYS: [&str; 13] = [
-    "spacing",
-    "boundary_diameter",
-    "h_min",
-    "h_risk",
-    "h_max",
-    "width",
-    "at_zero",
-    "range",
-    "diameter",
-    "smoothing",
-    "width_from",
-    "width_to",
-    "clearance",
-];
-
-/// A way to read a number in metres or square metres, or in kilometres where lengths of the document are.
-type OnGround = fn(&str, LengthUnit) -> Result<f64, String>;
-
-/// The keys that are in metres, or in square metres, also where coordinates are degrees: they need no plane.
-const ON_GROUND: [(&str, OnGround); 2] = [("smallest_inlet", Length::on_ground), ("smallest_island", area)];
 
 /// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
 pub const METRES: &str = "metres";
 
-/// The lengths with a unit in a text, in its order.
+/// A length in world units, which a text may give with a unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize, Deserialize)]
+pub struct SavedLength(pub f64);
+
+/// A length in metres, or in kilometres where lengths of the document are, also where coordinates are
+/// degrees: it needs no plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroundLength(pub f64);
+
+/// An area in square metres, or in square kilometres, as [`GroundLength`] is a length.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroundArea(pub f64);
+
+impl Deref for SavedLength {
+    type Target = f64;
+
+    fn deref(&self) -> &f64 {
+        &self.0
+    }
+}
+
+impl From<f64> for SavedLength {
+    fn from(value: f64) -> Self {
+        Self(value)
+    }
+}
+
+impl From<SavedLength> for f64 {
+    fn from(length: SavedLength) -> Self {
+        length.0
+    }
+}
+
+impl SavedLength {
+    /// Returns the length, in world units.
+    ///
+    /// # Errors
+    /// Fails when it is not positive or not finite, with its key.
+    pub fn checked(self, key: &'static str) -> Result<f64, KeyFault> {
+        positive_length(self.0).map_err(|fault| fault.within(key))
+    }
+}
+
+/// What a number of a text measures.
+#[derive(Clone, Copy)]
+pub enum Measure {
+    /// See [`SavedLength`].
+    Length,
+    /// See [`GroundLength`].
+    GroundLength,
+    /// See [`GroundArea`].
+    GroundArea,
+}
+
+impl Measure {
+    /// Returns what the type of a field measures, by the name that serde has for it.
+    pub fn of_type(name: &str) -> Option<Self> {
+        match name {
+            "SavedLength" => Some(Self::Length),
+            "GroundLength" => Some(Self::GroundLength),
+            "GroundArea" => Some(Self::GroundArea),
+            _ => None,
+        }
+    }
+}
+
+/// The unit of the lengths of a text, and those that have one of their own, as they are found.
+#[derive(Debug, Default)]
+pub struct TextContext {
+    unit: LengthUnit,
+    /// The keys and indices from the root of the text to the value that is read.
+    path: RefCell<Vec<KeyStep>>,
+    written: RefCell<Vec<WrittenLength>>,
+}
+
+impl TextContext {
+    /// Returns the context of tables: `of_document` is the unit of the document, if it is known, and else the
+    /// one that they state.
+    pub fn new(tables: &TextValue, of_document: Option<LengthUnit>) -> Self {
+        let unit = of_document.or_else(|| stated_unit(tables)).unwrap_or_default();
+        Self { unit, ..Self::default() }
+    }
+
+    /// Reads a value of a list or a table.
+    pub fn within<T>(&self, step: KeyStep, read: impl FnOnce() -> T) -> T {
+        self.path.borrow_mut().push(step);
+        let value = read();
+        self.path.borrow_mut().pop();
+        value
+    }
+
+    /// Returns the number of a text in the place of one.
+    ///
+    /// # Errors
+    /// Fails when it is none, or has a unit of something else.
+    pub fn number(&self, measure: Measure, text: &str) -> Result<f64, KeyFault> {
+        match measure {
+            Measure::Length => self.length(text),
+            Measure::GroundLength => Length::on_ground(text, self.unit).map_err(KeyFault::here),
+            Measure::GroundArea => area(text, self.unit).map_err(KeyFault::here),
+        }
+    }
+
+    /// Returns the number of a length, and keeps its unit in mind.
+    fn length(&self, text: &str) -> Result<f64, KeyFault> {
+        if text.trim().is_empty() {
+            let sentence = "this text is empty: write a length such as \"40 km\", or a number.";
+            return Err(KeyFault::here(sentence));
+        }
+        let length = Length::from_str(text).map_err(KeyFault::here)?.in_document(self.unit);
+        let value = length.value;
+        if length.has_unit() {
+            self.written.borrow_mut().push(WrittenLength { path: self.path.borrow().clone(), length });
+        }
+        Ok(value)
+    }
+
+    /// Returns the lengths that were written with a unit, in the order in which they were read.
+    pub fn into_written(self) -> WrittenLengths {
+        WrittenLengths(self.written.into_inner())
+    }
+}
+
+/// The lengths with a unit in a text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WrittenLengths(Vec<WrittenLength>);
 
@@ -43,97 +147,6 @@ struct WrittenLength {
 }
 
 impl WrittenLengths {
-    /// Puts numbers in the place of texts that are lengths, and returns those with a unit. `of_document` is
-    /// the unit of the document, if it is known.
-    ///
-    /// # Errors
-    /// Fails for the first text in the place of a length that is none.
-    pub(in crate::io) fn take(
-        tables: &mut TextValue,
-        of_document: Option<LengthUnit>,
-    ) -> Result<Self, KeyFault> {
-        let stated = of_document.or_else(|| stated_unit(tables)).unwrap_or_default();
-        let mut taken = Self::default();
-        taken.take_from(tables, &mut Vec::new(), stated)?;
-        Ok(taken)
-    }
-
-    fn take_from(
-        &mut self,
-        value: &mut TextValue,
-        path: &mut Vec<KeyStep>,
-        unit: LengthUnit,
-    ) -> Result<(), KeyFault> {
-        match value {
-            TextValue::List(list) => {
-                for (index, entry) in list.iter_mut().enumerate() {
-                    path.push(index.into());
-                    self.take_from(entry, path, unit)?;
-                    path.pop();
-                }
-            }
-            TextValue::Table(table) => {
-                let is_size = has_word(table, "quantity", "diameter");
-                for (key, value) in table {
-                    path.push(key.clone().into());
-                    match value {
-                        TextValue::Text(text) if KEYS.contains(&&**key) => {
-                            *value = TextValue::Number(self.number(text, path, unit)?);
-                        }
-                        TextValue::Text(text) if ON_GROUND.iter().any(|(name, _)| name == key) => {
-                            *value = TextValue::Number(on_ground(key, text, path, unit)?);
-                        }
-                        TextValue::Text(text) if key == "formula" && is_size => {
-                            if Length::with_unit(text).is_some() {
-                                *text = self.number(text, path, unit)?.to_string();
-                            }
-                        }
-                        TextValue::List(knots) if key == "curve" => self.take_knots(knots, path, unit)?,
-                        _ => self.take_from(value, path, unit)?,
-                    }
-                    path.pop();
-                }
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
-    /// Takes the diameters of pairs of a value and a diameter.
-    fn take_knots(
-        &mut self,
-        knots: &mut [TextValue],
-        path: &mut Vec<KeyStep>,
-        unit: LengthUnit,
-    ) -> Result<(), KeyFault> {
-        for (index, knot) in knots.iter_mut().enumerate() {
-            if let TextValue::List(pair) = knot
-                && let [_, diameter] = &mut pair[..]
-                && let TextValue::Text(text) = diameter
-            {
-                path.extend([index.into(), 1.into()]);
-                *diameter = TextValue::Number(self.number(text, path, unit)?);
-                path.truncate(path.len() - 2);
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns the number of a length, and keeps its unit in mind.
-    fn number(&mut self, text: &str, path: &[KeyStep], unit: LengthUnit) -> Result<f64, KeyFault> {
-        let fault = |sentence| KeyFault { path: path.to_owned(), ..KeyFault::here(sentence) };
-        if text.trim().is_empty() {
-            let sentence = "this text is empty: write a length such as \"40 km\", or a number.";
-            return Err(fault(sentence.to_owned()));
-        }
-        let length = Length::from_str(text).map_err(fault)?.in_document(unit);
-        let value = length.value;
-        if length.has_unit() {
-            self.0.push(WrittenLength { path: path.to_owned(), length });
-        }
-        Ok(value)
-    }
-
     /// Returns whether one of them is in metres.
     pub fn are_metric(&self) -> bool {
         self.0.iter().any(|written| written.length.unit() == LengthUnit::Metre)
@@ -154,22 +167,13 @@ impl WrittenLengths {
     }
 
     /// Returns a fault of one of them with the length as it was written.
-    pub(in crate::io) fn as_written(&self, fault: KeyFault) -> KeyFault {
+    pub fn as_written(&self, fault: KeyFault) -> KeyFault {
         let written = self.0.iter().find(|written| written.path == fault.path && fault.given.is_some());
         match written {
             Some(written) => KeyFault { given: Some(cannot_be_used(&written.length)), ..fault },
             None => fault,
         }
     }
-}
-
-/// Returns the number of a length or an area on the ground.
-fn on_ground(key: &str, text: &str, path: &[KeyStep], unit: LengthUnit) -> Result<f64, KeyFault> {
-    let read = ON_GROUND
-        .iter()
-        .find(|(name, _)| *name == key)
-        .map_or(Length::on_ground as OnGround, |(_, read)| *read);
-    read(text, unit).map_err(|sentence| KeyFault { path: path.to_owned(), ..KeyFault::here(sentence) })
 }
 
 fn cannot_be_used(length: &Length) -> String {
@@ -187,20 +191,6 @@ fn stated_unit(tables: &TextValue) -> Option<LengthUnit> {
     match value(&value(tables, "domain")?, "unit")? {
         TextValue::Text(word) => LengthUnit::ALL.into_iter().find(|unit| unit.name() == word),
         _ => None,
-    }
-}
-
-fn has_word(table: &[(String, TextValue)], key: &str, word: &str) -> bool {
-    table.iter().any(|(found, value)| found == key && matches!(value, TextValue::Text(text) if text == word))
-}
-
-impl<L> SavedSettings<L> {
-    /// Takes lengths with units: those in metres need a plane in metres.
-    pub(in crate::io) fn with_lengths(mut self, lengths: WrittenLengths) -> Self {
-        if lengths.are_metric() && self.domain.outline_file().is_some() {
-            self.domain.projection.get_or_insert_with(|| METRES.to_owned());
-        }
-        Self { lengths, ..self }
     }
 }
 
@@ -291,7 +281,10 @@ mod tests {
         assert_eq!(settings, expected);
         // In a document in kilometres they become kilometres.
         let of_kilometres = parsed(&written.replace("unit = \"m\"", "unit = \"km\"")).unwrap().settings;
-        assert_eq!((of_kilometres.mesh.spacing, of_kilometres.limits.h_risk), (Some(40.0), Some(0.926)));
+        assert_eq!(
+            (of_kilometres.mesh.spacing, of_kilometres.limits.h_risk),
+            (Some(SavedLength(40.0)), Some(SavedLength(0.926)))
+        );
         assert_eq!(of_kilometres.lengths.check(LengthUnit::Kilometre), Ok(()));
     }
 
@@ -305,7 +298,7 @@ mod tests {
         let read = |unit: &str, inlet: &str, island: &str| {
             let settings = domain(unit, inlet, island).unwrap().settings;
             assert!(settings.domain.projection.is_none() && !settings.lengths.are_metric());
-            [settings.domain.smallest_inlet, settings.domain.smallest_island].map(Option::unwrap)
+            [settings.domain.smallest_inlet.unwrap().0, settings.domain.smallest_island.unwrap().0]
         };
         assert_eq!(read("", "300", "5000"), [300.0, 5000.0]);
         assert_eq!(read("", "\"0.3 km\"", "\"2 km²\""), [300.0, 2e6]);
