@@ -1,7 +1,7 @@
 //! A recipe as text, in one form: equal recipes give equal texts.
 
 use serde::Serialize;
-use serde_json::{Map, Value};
+use toml::{Table, Value};
 
 use super::super::Number;
 use super::super::settings::SavedSettings;
@@ -12,51 +12,6 @@ const WIDEST_LIST: usize = 90;
 const HEADER: &str =
     "# A Meshbrush recipe. Keys: docs/recipe.md. Files are named from the folder of this one.\n";
 const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the top one.\n";
-
-/// The order of keys. Others follow in the order of their letters.
-const ORDER: [&str; 41] = [
-    "region",
-    "land",
-    "sea",
-    "bounds",
-    "inside",
-    "unit",
-    "spacing",
-    "rule",
-    "h_min",
-    "h_risk",
-    "h_max",
-    "shape",
-    "gradation",
-    "at",
-    "x",
-    "y",
-    "range",
-    "peak",
-    "law",
-    "name",
-    "kind",
-    "visible",
-    "locked",
-    "combine",
-    "mask",
-    "mask_file",
-    "quantity",
-    "formula",
-    "file",
-    "layer",
-    "as",
-    "curve",
-    "threats",
-    "to",
-    "shapes",
-    "at_zero",
-    "slope",
-    "between",
-    "positive",
-    "offset",
-    "size",
-];
 
 /// Returns the text of a recipe.
 pub fn to_text(recipe: &SavedSettings) -> String {
@@ -88,29 +43,19 @@ fn write_table(text: &mut String, heading: &str, table: &impl Serialize) {
     });
 }
 
-/// Writes the entries whose values say something.
+/// Writes the entries whose values say something, in the order of the fields of `table`.
 fn write_entries(text: &mut String, heading: &str, table: &impl Serialize, says: impl Fn(&Value) -> bool) {
-    let Ok(Value::Object(table)) = serde_json::to_value(table) else { return };
-    let mut entries = in_order(&table);
-    entries.retain(|(_, value)| says(value));
-    if entries.is_empty() {
+    let Ok(mut table) = Table::try_from(table) else { return };
+    table.retain(|_, value| says(value));
+    if table.is_empty() {
         return;
     }
     text.push_str(&format!("{heading}\n"));
-    for (key, value) in entries {
+    for (key, value) in table {
         text.push_str(&format!("{key} = "));
-        write_value(text, value, 0);
+        write_value(text, &value, 0);
         text.push('\n');
     }
-}
-
-/// Returns the entries that have a value, in the order of keys.
-fn in_order(table: &Map<String, Value>) -> Vec<(&str, &Value)> {
-    let mut entries: Vec<_> = table.iter().map(|(key, value)| (key.as_str(), value)).collect();
-    entries.retain(|(_, value)| !value.is_null());
-    entries
-        .sort_by_key(|(key, _)| (ORDER.iter().position(|other| other == key).unwrap_or(ORDER.len()), *key));
-    entries
 }
 
 /// A value after `indent` columns: on one line where that is not too long, else a list with a line for each
@@ -134,20 +79,17 @@ fn write_value(text: &mut String, value: &Value, indent: usize) {
 
 fn on_one_line(value: &Value) -> String {
     match value {
-        Value::Null => String::new(),
-        Value::Bool(value) => value.to_string(),
-        Value::Number(number) => match number.as_u64() {
-            Some(whole) => whole.to_string(),
-            None => Number(number.as_f64().unwrap_or(f64::NAN)).to_string(),
-        },
+        Value::Boolean(value) => value.to_string(),
+        Value::Integer(number) => number.to_string(),
+        Value::Float(number) => Number(*number).to_string(),
+        Value::Datetime(date) => date.to_string(),
         Value::String(string) => quoted(string),
         Value::Array(list) => {
             let entries: Vec<String> = list.iter().map(on_one_line).collect();
             format!("[{}]", entries.join(", "))
         }
-        Value::Object(table) => {
-            let entries =
-                in_order(table).into_iter().map(|(key, value)| format!("{key} = {}", on_one_line(value)));
+        Value::Table(table) => {
+            let entries = table.iter().map(|(key, value)| format!("{key} = {}", on_one_line(value)));
             format!("{{ {} }}", entries.collect::<Vec<_>>().join(", "))
         }
     }

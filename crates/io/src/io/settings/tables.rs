@@ -85,13 +85,6 @@ fn is_default<T: Default + PartialEq>(table: &T) -> bool {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedDomain {
-    /// The rectangle that the coarse grid covers: x₀, y₀, x₁, y₁. With a file that is projected, and with
-    /// land, it is in the coordinates of the file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bounds: Option<[f64; 4]>,
-    /// The domain is where this formula is not 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inside: Option<String>,
     /// The domain is what the polygons of this file cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<PathBuf>,
@@ -101,6 +94,13 @@ pub struct SavedDomain {
     /// A place in the sea, in the coordinates of the file of the land.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sea: Option<[f64; 2]>,
+    /// The rectangle that the coarse grid covers: x₀, y₀, x₁, y₁. With a file that is projected, and with
+    /// land, it is in the coordinates of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<[f64; 4]>,
+    /// The domain is where this formula is not 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inside: Option<String>,
     /// Where the region is a grid: the depth, in metres, below which the domain is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contour: Option<f64>,
