@@ -7,7 +7,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::layers::positive_length;
-use super::{KeyFault, KeyStep, TextValue};
+use super::{KeyFault, KeyStep};
 use meshbrush_mesh::text::{Length, LengthUnit, area, excerpt};
 
 /// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
@@ -89,10 +89,8 @@ pub struct TextContext {
 }
 
 impl TextContext {
-    /// Returns the context of tables: `of_document` is the unit of the document, if it is known, and else the
-    /// one that they state.
-    pub fn new(tables: &TextValue, of_document: Option<LengthUnit>) -> Self {
-        let unit = of_document.or_else(|| stated_unit(tables)).unwrap_or_default();
+    /// Returns the context of a text whose lengths are in `unit`.
+    pub fn new(unit: LengthUnit) -> Self {
         Self { unit, ..Self::default() }
     }
 
@@ -178,20 +176,6 @@ impl WrittenLengths {
 
 fn cannot_be_used(length: &Length) -> String {
     format!("\"{}\" cannot be used: ", excerpt(40, &length.to_string()))
-}
-
-/// Returns the unit of a document as its tables state it.
-fn stated_unit(tables: &TextValue) -> Option<LengthUnit> {
-    let value = |tables: &TextValue, key: &str| match tables {
-        TextValue::Table(table) => {
-            table.iter().find(|(found, _)| found == key).map(|(_, value)| value.clone())
-        }
-        _ => None,
-    };
-    match value(&value(tables, "domain")?, "unit")? {
-        TextValue::Text(word) => LengthUnit::ALL.into_iter().find(|unit| unit.name() == word),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

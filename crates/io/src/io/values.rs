@@ -136,8 +136,8 @@ impl<'de> Deserializer<'de> for TextReader<'_, 'de> {
             TextValue::Number(number) => visitor.visit_f64(*number),
             TextValue::Text(text) => visitor.visit_borrowed_str(text),
             TextValue::Date => self.value.refused("a number, a text, a list or a table"),
-            TextValue::List(list) => visitor.visit_seq(Entries { list, next: 0, context: self.context }),
-            TextValue::Table(table) => visitor.visit_map(Keys { table, next: 0, context: self.context }),
+            TextValue::List(list) => visitor.visit_seq(ListReader { list, next: 0, context: self.context }),
+            TextValue::Table(table) => visitor.visit_map(KeyReader { table, next: 0, context: self.context }),
         }
     }
 
@@ -254,13 +254,13 @@ impl<'de> Deserializer<'de> for TextReader<'_, 'de> {
 }
 
 /// The entries of a list, from one of them on.
-struct Entries<'c, 'de> {
+struct ListReader<'c, 'de> {
     list: &'de [TextValue],
     next: usize,
     context: Option<&'c TextContext>,
 }
 
-impl<'de> SeqAccess<'de> for Entries<'_, 'de> {
+impl<'de> SeqAccess<'de> for ListReader<'_, 'de> {
     type Error = KeyFault;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, KeyFault> {
@@ -278,13 +278,13 @@ impl<'de> SeqAccess<'de> for Entries<'_, 'de> {
 }
 
 /// The entries of a table, from one of them on.
-struct Keys<'c, 'de> {
+struct KeyReader<'c, 'de> {
     table: &'de [(String, TextValue)],
     next: usize,
     context: Option<&'c TextContext>,
 }
 
-impl<'de> MapAccess<'de> for Keys<'_, 'de> {
+impl<'de> MapAccess<'de> for KeyReader<'_, 'de> {
     type Error = KeyFault;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, KeyFault> {

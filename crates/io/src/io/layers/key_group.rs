@@ -18,12 +18,12 @@ use crate::io::values::TextReader;
 use crate::io::{KeyFault, TextValue};
 
 /// The entries of a table that nothing has taken yet.
-pub struct Entries<'c> {
+pub struct TableEntries<'c> {
     left: Vec<(String, TextValue)>,
     context: &'c TextContext,
 }
 
-impl<'c> Entries<'c> {
+impl<'c> TableEntries<'c> {
     /// Returns the entries of a table, or `None` for another value.
     pub fn of(table: TextValue, context: &'c TextContext) -> Option<Self> {
         if let TextValue::Table(left) = table { Some(Self { left, context }) } else { None }
@@ -49,7 +49,7 @@ pub trait KeyGroup: Sized {
     ///
     /// # Errors
     /// Fails for a value of another type, and for a key that is needed and missing.
-    fn take(entries: &mut Entries<'_>) -> Result<Self, KeyFault>;
+    fn take(entries: &mut TableEntries<'_>) -> Result<Self, KeyFault>;
 }
 
 /// The fields of a struct that serde derives are its keys.
@@ -58,7 +58,7 @@ impl<T: DeserializeOwned> KeyGroup for T {
         field_names::<T>().to_vec()
     }
 
-    fn take(entries: &mut Entries<'_>) -> Result<Self, KeyFault> {
+    fn take(entries: &mut TableEntries<'_>) -> Result<Self, KeyFault> {
         let names = field_names::<T>();
         let own = entries.left.extract_if(.., |(key, _)| names.contains(&&**key)).collect();
         T::deserialize(TextReader::new(&TextValue::Table(own), entries.context))
@@ -73,7 +73,7 @@ macro_rules! group_of_groups {
                 [$(<$part_type as $crate::io::layers::KeyGroup>::names()),+].concat()
             }
 
-            fn take(entries: &mut $crate::io::layers::Entries<'_>) -> Result<Self, $crate::io::KeyFault> {
+            fn take(entries: &mut $crate::io::layers::TableEntries<'_>) -> Result<Self, $crate::io::KeyFault> {
                 Ok(Self { $($part: $crate::io::layers::KeyGroup::take(entries)?),+ })
             }
         }

@@ -5,7 +5,8 @@
 //! values and makes a layer of the stack, with the data of a [`LayerData`]: files, or the parts of a project.
 
 mod checks;
-mod fill;
+mod data;
+mod direction;
 mod key_group;
 mod kinds;
 mod rasters;
@@ -20,9 +21,15 @@ mod words;
 pub const MOST_IN_PLACE: usize = 20;
 
 pub use checks::{FindFile, compiled, each, point, points, positive_length, rect_of, rings};
-pub use fill::{LayerData, Stored, TextError, in_direction};
-pub use key_group::{Entries, KeyGroup};
-pub use kinds::*;
+pub use data::{LayerData, LayerOrigin, Stored, TextError};
+pub use direction::in_direction;
+pub use key_group::{KeyGroup, TableEntries};
+pub use kinds::{
+    BandKeys, BoundaryKeys, CorridorKeys, CourantKeys, DatumKeys, DepthKeys, DepthRangeKeys, DepthSizeKeys,
+    DistanceKeys, FeatureSizeKeys, FormulaKeys, GoalKeys, GridKeys, GrowthKeys, KindKeys, LayerKeys,
+    PaintKeys, RasterKeys, ReadingKeys, SavedKind, SavedKnot, ShapeKeys, SlopeKeys, StepKeys, StraitKeys,
+    StripKeys, SurfaceKeys, TargetKeys, ThreatKeys, WavelengthKeys, WidthKeys,
+};
 pub use rasters::{LoadedRaster, OwnPlace, RasterError, RasterFile, RasterFrame, RasterLoader};
 pub use saved::{ListsInPlace, SavedLayer, SharedKeys};
 use shapes::checked_shapes;

@@ -5,12 +5,15 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::checks::rings;
 use super::kinds::LayerKeys;
-use super::{Entries, KeyGroup, RasterFile, SavedCombine, SavedKind, SavedPolygon, each, saved_polygon};
+use super::{
+    KeyGroup, LayerData, LayerOrigin, SavedCombine, SavedKind, SavedPolygon, TableEntries, each,
+    saved_polygon,
+};
 use super::{SavedShape, Stored};
 use crate::io::lengths::TextContext;
 use crate::io::{KeyFault, TextValue};
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{DistanceLayer, Layer, Threats};
+use meshbrush_core::layers::{DistanceLayer, Layer, LayerId, Threats};
 
 /// A layer as a text has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,14 +90,16 @@ impl SavedLayer {
     /// # Errors
     /// Fails for the first key that no layer of its kind has, is missing, or has a value of another type.
     pub fn of_table(table: TextValue, context: &TextContext) -> Result<Self, KeyFault> {
-        let Some(mut entries) = Entries::of(table, context) else {
+        let Some(mut entries) = TableEntries::of(table, context) else {
             return Err(KeyFault::here("a layer must be a table."));
         };
         let Heading { name, kind } = Heading::take(&mut entries)?;
         check_keys(kind, &entries)?;
         let shared = SharedKeys::take(&mut entries)?;
         let keys = LayerKeys::take(kind, &mut entries).map_err(|fault| match fault.missing {
-            Some(key) if fault.path.is_empty() => kind.missing(&format!("needs `{key}`")),
+            Some(key) if fault.path.is_empty() => {
+                KeyFault::entry("kind", format!("a layer of the kind \"{}\" needs `{key}`.", kind.word()))
+            }
             _ => fault,
         })?;
         Ok(Self { name, shared, keys })
@@ -155,24 +160,28 @@ impl SavedLayer {
         }
     }
 
-    /// Returns the file with its pixels.
+    /// Returns which layer its data belong to.
+    pub fn origin(&self) -> LayerOrigin<'_> {
+        LayerOrigin { name: self.shown_name(), file: self.keys.file().unwrap_or(Path::new("")) }
+    }
+
+    /// Returns the layer, with its data. What is painted is not part of a layer.
     ///
     /// # Errors
-    /// Fails when it is missing, or is no raster.
-    pub fn raster_file(&self) -> Result<RasterFile, KeyFault> {
-        let grid = self.keys.grid().ok_or_else(|| self.kind().missing("has no raster"))?;
-        grid.raster_file(self.kind())
-    }
-
-    /// Returns the file with its data; empty without one.
-    pub fn path(&self) -> &Path {
-        self.keys.file().unwrap_or(Path::new(""))
-    }
-
-    /// Returns the name of its file without folders, for a person; empty where there is none.
-    pub fn file_name(&self) -> String {
-        let path = self.path();
-        path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+    /// Fails with the errors of `data`; when a value cannot be used; and a sentence that names the layer when
+    /// its data cannot be used.
+    pub fn load<D: LayerData>(&self, id: LayerId, data: &mut D) -> Result<Layer, D::Error> {
+        self.check(D::STORED)?;
+        let origin = self.origin();
+        let kind = self.keys.load(&origin, data)?;
+        let mask = match (self.mask_in_place()?, &self.shared.mask_file) {
+            (Some(polygons), _) => Some(origin.mask_of_polygons(&polygons)?),
+            (None, Some(file)) => Some(data.mask(&origin, file)?),
+            (None, None) => None,
+        };
+        let SharedKeys { visible, locked, combine, .. } = self.shared;
+        let (name, combine) = (origin.name.to_owned(), combine.into());
+        Ok(Layer { id, name, visible, locked, combine, mask, kind })
     }
 }
 
@@ -196,7 +205,7 @@ impl LayerKeys {
 }
 
 /// Checks that a table has only keys of its kind. The advice names those.
-fn check_keys(kind: SavedKind, entries: &Entries<'_>) -> Result<(), KeyFault> {
+fn check_keys(kind: SavedKind, entries: &TableEntries<'_>) -> Result<(), KeyFault> {
     let (shared, own) = (SharedKeys::names(), kind.keys());
     let is_known = |key: &str| shared.contains(&key) || own.contains(&key);
     let Some(key) = entries.keys().find(|key| !is_known(key)) else { return Ok(()) };

@@ -10,7 +10,7 @@ use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, FormulaLayer, Layer, LayerId,
     LayerKind, Mask, PositiveDepth, Quantity, ShapeList, Shapes, Threat, ThreatLaw, Threats,
 };
-use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues};
 use meshbrush_mesh::geometry::Rect;
 
 fn saved(json: &str) -> SavedLayer {
@@ -289,20 +289,20 @@ impl LayerData for InMemory {
 
     const STORED: Stored = Stored::InFiles;
 
-    fn raster(&mut self, _: &SavedLayer) -> Result<LoadedRaster, Fault> {
+    fn raster(&mut self, _: &LayerOrigin, _: &GridKeys, _: RasterValues) -> Result<LoadedRaster, Fault> {
         let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 1.0, 2.0, 3.0]);
         Ok(Arc::new(RasterPyramid::new(raster)).into())
     }
 
-    fn threats(&mut self, _: &SavedLayer) -> Result<Threats, Fault> {
+    fn threats(&mut self, _: &LayerOrigin) -> Result<Threats, Fault> {
         unreachable!("threats are in place")
     }
 
-    fn shapes(&mut self, _: &SavedLayer) -> Result<Shapes, Fault> {
+    fn shapes(&mut self, _: &LayerOrigin) -> Result<Shapes, Fault> {
         unreachable!("shapes are in place")
     }
 
-    fn mask(&mut self, _: &SavedLayer, _: &Path) -> Result<Mask, Fault> {
+    fn mask(&mut self, _: &LayerOrigin, _: &Path) -> Result<Mask, Fault> {
         unreachable!("masks are in place")
     }
 }

@@ -6,14 +6,16 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::super::error::PlacedFlaw;
-use super::super::layers::{LayerData, ListsInPlace, LoadedRaster, SavedLayer, Stored, TextError};
+use super::super::layers::{
+    GridKeys, LayerData, LayerOrigin, ListsInPlace, LoadedRaster, SavedLayer, Stored, TextError,
+};
 use super::super::{Flaw, KeyFault};
 use super::part_names::{PartData, PartNames};
 use super::part_reader::PartReader;
 use super::settings::{checked_size, corners, rect};
 use meshbrush_core::document::MOST_RASTER_PIXELS;
 use meshbrush_core::layers::{Layer, LayerId, Mask, Shapes, Threats};
-use meshbrush_core::raster::check_values;
+use meshbrush_core::raster::{RasterValues, check_values};
 use meshbrush_mesh::text::Grouped;
 
 /// A layer with its identifier, and the parts with its data.
@@ -113,52 +115,53 @@ impl LayerData for InProject<'_, '_, '_> {
 
     const STORED: Stored = Stored::InProject;
 
-    fn raster(&mut self, layer: &SavedLayer) -> Result<LoadedRaster, PlacedFlaw> {
+    fn raster(
+        &mut self,
+        origin: &LayerOrigin,
+        _: &GridKeys,
+        values: RasterValues,
+    ) -> Result<LoadedRaster, PlacedFlaw> {
         let stored = self.raster.as_ref();
-        let stored = stored.ok_or_else(|| layer.error("its pixels are not part of the project."))?;
+        let stored = stored.ok_or_else(|| origin.error("its pixels are not part of the project."))?;
         let (bounds, size) = (rect("raster", stored.bounds)?, checked_size([stored.columns, stored.rows])?);
         let raster = self.parts.raster(&stored.part, bounds, size);
-        let raster = raster.map_err(|flaw| of_layer(flaw, layer, "pixels"))?;
-        if let Some(values) = layer.keys.raster_values() {
-            check_values(&raster, values).map_err(|problem| layer.error(problem))?;
-        }
+        let raster = raster.map_err(|flaw| of_layer(flaw, origin, "pixels"))?;
+        check_values(&raster, values).map_err(|problem| origin.error(problem))?;
         Ok(raster.into())
     }
 
-    fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, PlacedFlaw> {
-        let threats = self.parts.threats(named(self.threats.as_ref(), layer)?);
-        threats.map_err(|flaw| of_layer(flaw, layer, "threats"))
+    fn threats(&mut self, origin: &LayerOrigin) -> Result<Threats, PlacedFlaw> {
+        let threats = self.parts.threats(named(self.threats.as_ref(), origin)?);
+        threats.map_err(|flaw| of_layer(flaw, origin, "threats"))
     }
 
-    fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, PlacedFlaw> {
-        let shapes = self.parts.shapes(named(self.shapes.as_ref(), layer)?);
-        shapes.map_err(|flaw| of_layer(flaw, layer, "shapes"))
+    fn shapes(&mut self, origin: &LayerOrigin) -> Result<Shapes, PlacedFlaw> {
+        let shapes = self.parts.shapes(named(self.shapes.as_ref(), origin)?);
+        shapes.map_err(|flaw| of_layer(flaw, origin, "shapes"))
     }
 
-    fn mask(&mut self, layer: &SavedLayer, _: &Path) -> Result<Mask, PlacedFlaw> {
-        let mask = self.parts.mask(named(self.mask.as_ref(), layer)?);
-        mask.map_err(|flaw| of_layer(flaw, layer, "mask"))
+    fn mask(&mut self, origin: &LayerOrigin, _: &Path) -> Result<Mask, PlacedFlaw> {
+        let mask = self.parts.mask(named(self.mask.as_ref(), origin)?);
+        mask.map_err(|flaw| of_layer(flaw, origin, "mask"))
     }
 }
 
 /// Returns the part with the data of a layer.
-fn named<'n>(part: Option<&'n String>, layer: &SavedLayer) -> Result<&'n str, PlacedFlaw> {
+fn named<'n>(part: Option<&'n String>, origin: &LayerOrigin) -> Result<&'n str, PlacedFlaw> {
     let missing = || {
         Flaw::Syntax(format!(
             "the layer “{}” names a file, and a project holds the data of its layers itself.",
-            layer.shown_name()
+            origin.name
         ))
     };
     Ok(part.ok_or_else(missing)?)
 }
 
 /// Returns the flaw of a part as one of the data of a layer.
-fn of_layer(PlacedFlaw { place, flaw }: PlacedFlaw, layer: &SavedLayer, what: &str) -> PlacedFlaw {
+fn of_layer(PlacedFlaw { place, flaw }: PlacedFlaw, origin: &LayerOrigin, what: &str) -> PlacedFlaw {
     let flaw = match flaw {
         Flaw::Io(error) => Flaw::Io(error),
-        flaw => {
-            Flaw::Syntax(format!("the {what} of the layer “{}” cannot be read: {flaw}", layer.shown_name()))
-        }
+        flaw => Flaw::Syntax(format!("the {what} of the layer “{}” cannot be read: {flaw}", origin.name)),
     };
     PlacedFlaw { place, flaw }
 }

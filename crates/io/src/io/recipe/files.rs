@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::super::geojson::{self, Outline};
 use super::super::layers::{
-    LayerData, LayerKeys, LoadedRaster, PaintKeys, RasterError, RasterFrame, RasterLoader, SavedLayer,
-    Stored, TextError,
+    GridKeys, LayerData, LayerKeys, LayerOrigin, LoadedRaster, PaintKeys, RasterError, RasterFrame,
+    RasterLoader, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{
     LoadingDefaults, ReadRegion, RegionCoordinates, SavedOpen, SavedSettings, Storage,
@@ -245,11 +245,14 @@ impl<'a> Files<'a> {
                 true => "has none".to_owned(),
                 false => format!("has {}", known.join(", ")),
             };
-            return Err(layer.error(format_args!("{file} has no paint layer “{name}”; it {there}.")).into());
+            return Err(layer
+                .origin()
+                .error(format_args!("{file} has no paint layer “{name}”; it {there}."))
+                .into());
         };
         if stored.paints() != Some((*quantity).into()) {
             let problem = format_args!("what is painted on “{name}” in {file} is not of this `quantity`.");
-            return Err(layer.error(problem).into());
+            return Err(layer.origin().error(problem).into());
         }
         document.paint().get(stored.id).into_iter().for_each(|raster| self.paint.insert(id, raster.clone()));
         Ok(())
@@ -330,10 +333,8 @@ impl Storage for Files<'_> {
 
     fn extent(&mut self, layers: &[SavedLayer]) -> Result<Option<(Rect, LengthUnit)>, LoadError> {
         let mut extent: Option<(Rect, LengthUnit)> = None;
-        let of_rasters =
-            layers.iter().filter(|layer| layer.shared.visible && layer.keys.raster_values().is_some());
-        for layer in of_rasters {
-            let place = self.rasters.own_place(&layer.raster_file()?)?;
+        for grid in layers.iter().filter(|layer| layer.shared.visible).filter_map(|layer| layer.keys.grid()) {
+            let place = self.rasters.own_place(&grid.raster_file()?)?;
             let place = place.map(|place| (place.rect, place.unit()));
             let both = |(a, of_a): (Rect, LengthUnit), (b, of_b)| {
                 (a.union(&b), if of_a == of_b { of_a } else { LengthUnit::None })
@@ -374,11 +375,15 @@ impl LayerData for Files<'_> {
 
     const STORED: Stored = Stored::InFiles;
 
-    fn raster(&mut self, layer: &SavedLayer) -> Result<LoadedRaster, LoadError> {
-        let values = layer.keys.raster_values().unwrap_or(RasterValues::Any);
-        self.rasters.load(&layer.raster_file()?, values, &self.frame).map_err(|error| match error {
+    fn raster(
+        &mut self,
+        origin: &LayerOrigin,
+        grid: &GridKeys,
+        values: RasterValues,
+    ) -> Result<LoadedRaster, LoadError> {
+        self.rasters.load(&grid.raster_file()?, values, &self.frame).map_err(|error| match error {
             RasterError::Read(error) => error.into(),
-            RasterError::Value(problem) => layer.error(problem).into(),
+            RasterError::Value(problem) => origin.error(problem).into(),
         })
     }
 
@@ -389,20 +394,20 @@ impl LayerData for Files<'_> {
         }
     }
 
-    fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, LoadError> {
+    fn threats(&mut self, origin: &LayerOrigin) -> Result<Threats, LoadError> {
         let projection = self.plane.map(|plane| plane.projection);
-        Ok(layer.indexed_threats(threats::read(layer.path(), projection, self.loading.meter)?)?)
+        Ok(origin.indexed_threats(threats::read(origin.file, projection, self.loading.meter)?)?)
     }
 
-    fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, LoadError> {
-        let (Self { loading, plane, .. }, file) = (self, layer.path());
+    fn shapes(&mut self, origin: &LayerOrigin) -> Result<Shapes, LoadError> {
+        let (Self { loading, plane, .. }, file) = (self, origin.file);
         let shapes = loading.shapes(file, || shape_format::read_own_shapes(file, None, loading.meter))?;
         let read = shape_format::placed_shapes(shapes, plane.as_ref(), file)?;
-        Ok(layer.indexed_shapes(read.shapes)?)
+        Ok(origin.indexed_shapes(read.shapes)?)
     }
 
-    fn mask(&mut self, layer: &SavedLayer, file: &Path) -> Result<Mask, LoadError> {
-        Ok(layer.mask_of_polygons(&self.polygons(file)?)?)
+    fn mask(&mut self, origin: &LayerOrigin, file: &Path) -> Result<Mask, LoadError> {
+        Ok(origin.mask_of_polygons(&self.polygons(file)?)?)
     }
 }
 

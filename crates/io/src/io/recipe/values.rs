@@ -76,7 +76,7 @@ impl SavedSettings {
 
     /// Returns the settings that tables state, with numbers in the place of lengths with units.
     pub(super) fn of_tables(tables: &TextValue, unit: Option<LengthUnit>) -> Result<Self, KeyFault> {
-        let context = TextContext::new(tables, unit);
+        let context = TextContext::new(unit.or_else(|| stated_unit(tables)).unwrap_or_default());
         let tables = SavedSettings::<TextValue>::deserialize(TextReader::new(tables, &context))?;
         let layer_of = |(index, table): (usize, TextValue)| {
             let read = || context.within(index.into(), || SavedLayer::of_table(table, &context));
@@ -113,7 +113,7 @@ impl SavedLayer {
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
     pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
-        let context = TextContext::new(table, Some(others.unit));
+        let context = TextContext::new(others.unit);
         let layer = Self::of_table(table.clone(), &context)?;
         let lengths = context.into_written();
         lengths.check(others.unit)?;
@@ -192,4 +192,18 @@ fn found(given: &Given, name: &str) -> Result<PathBuf, String> {
     }
     found_in(Path::new(""), name)
         .map_err(|problem| problem.replace("the folder of the recipe", "the working folder"))
+}
+
+/// Returns the unit of a document as its tables state it.
+fn stated_unit(tables: &TextValue) -> Option<LengthUnit> {
+    let value = |tables: &TextValue, key: &str| match tables {
+        TextValue::Table(table) => {
+            table.iter().find(|(found, _)| found == key).map(|(_, value)| value.clone())
+        }
+        _ => None,
+    };
+    match value(&value(tables, "domain")?, "unit")? {
+        TextValue::Text(word) => LengthUnit::ALL.into_iter().find(|unit| unit.name() == word),
+        _ => None,
+    }
 }

@@ -1,11 +1,13 @@
 use serde::{Deserialize, Serialize};
 
-use super::super::{LayerData, SavedLayer, Stored};
-use super::{GridKeys, KindKeys, LoadKind, SavedKind};
+use super::super::{LayerData, LayerOrigin, Stored};
+use super::GridKeys;
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use crate::io::layers::key_group::group_of_groups;
 use crate::io::lengths::SavedLength;
 use meshbrush_core::layers::{BandLayer, LayerKind};
+use meshbrush_core::raster::RasterValues;
 
 /// The keys of a band.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,7 +41,7 @@ impl BandKeys {
 
 impl KindKeys for BandKeys {
     fn check(&self, stored: Stored) -> Result<(), KeyFault> {
-        self.grid.check(SavedKind::Band, stored)?;
+        self.grid.check(Self::missing, stored)?;
         let [least, greatest] = self.step.between;
         if !(least.is_finite() && greatest.is_finite()) || least > greatest {
             let sentence = "write two finite numbers, the least value first.";
@@ -58,9 +60,12 @@ impl KindKeys for BandKeys {
 }
 
 impl LoadKind for BandKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "band";
+    const NAME: &str = "Band";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
         let StepKeys { between, diameter } = self.step;
-        let (source, _) = layer.raster_source(data)?;
+        let (source, _) = origin.raster(&self.grid, RasterValues::Any, data)?;
         Ok(LayerKind::Band(BandLayer { source, between, diameter: *diameter }))
     }
 }

@@ -1,12 +1,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::checks::number_where;
-use super::super::{Entries, KeyGroup, LayerData, SavedDepthSize, SavedLayer, SavedPositive, Stored};
-use super::{GridKeys, KindKeys, LoadKind, SavedKind};
+use super::super::{KeyGroup, LayerData, LayerOrigin, SavedDepthSize, SavedPositive, Stored, TableEntries};
+use super::GridKeys;
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::layers::key_group::group_of_groups;
 use crate::io::lengths::SavedLength;
 use crate::io::{KeyFault, ValueFacts, ValueUnit};
 use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth};
+use meshbrush_core::raster::RasterValues;
 
 /// The keys of depths.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -133,7 +135,7 @@ impl KeyGroup for DepthSizeKeys {
         names
     }
 
-    fn take(entries: &mut Entries<'_>) -> Result<Self, KeyFault> {
+    fn take(entries: &mut TableEntries<'_>) -> Result<Self, KeyFault> {
         let SizeTag { size } = SizeTag::take(entries)?;
         let (all, own) = (Self::names(), size.keys());
         let is_foreign = |key: &str| all.contains(&key) && !own.contains(&key);
@@ -251,7 +253,7 @@ impl DepthKeys {
 
 impl KindKeys for DepthKeys {
     fn check(&self, stored: Stored) -> Result<(), KeyFault> {
-        self.grid.check(SavedKind::Depth, stored)?;
+        self.grid.check(Self::missing, stored)?;
         self.checked().map(|_| ())
     }
 
@@ -265,9 +267,12 @@ impl KindKeys for DepthKeys {
 }
 
 impl LoadKind for DepthKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
-        let (sizes, (source, facts)) = (self.checked()?, layer.raster_source(data)?);
-        let positive = self.direction(&layer.file_name(), &facts, data).unwrap_or(sizes.positive);
+    const WORD: &str = "depth";
+    const NAME: &str = "Depth";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
+        let (sizes, (source, facts)) = (self.checked()?, origin.raster(&self.grid, RasterValues::Any, data)?);
+        let positive = self.direction(&origin.file_name(), &facts, data).unwrap_or(sizes.positive);
         Ok(LayerKind::Depth(Depths::new(source, DepthSizes { positive, ..sizes })))
     }
 }

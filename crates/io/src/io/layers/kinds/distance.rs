@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::super::checks::number_where;
-use super::super::{LayerData, SavedDistanceTo, SavedLayer, SavedShape, Stored, checked_shapes};
-use super::{KindKeys, LayerKeys, LoadKind, SavedKind};
+use super::super::{LayerData, LayerOrigin, SavedDistanceTo, SavedShape, Stored, checked_shapes};
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use crate::io::layers::key_group::group_of_groups;
 use crate::io::lengths::SavedLength;
@@ -118,27 +118,27 @@ enum PlacedShapes {
 }
 
 impl PlacedShapes {
-    fn load<D: LayerData>(self, layer: &SavedLayer, data: &mut D) -> Result<Shapes, D::Error> {
+    fn load<D: LayerData>(self, origin: &LayerOrigin, data: &mut D) -> Result<Shapes, D::Error> {
         match self {
-            Self::InFile => data.shapes(layer),
-            Self::InPlace(list) => Ok(layer.indexed_shapes(list)?),
+            Self::InFile => data.shapes(origin),
+            Self::InPlace(list) => Ok(origin.indexed_shapes(list)?),
         }
     }
 }
 
-/// Returns the keys of a distance without its shapes.
-pub(super) fn of(DistanceLayer { to, at_zero, slope, range }: &DistanceLayer) -> LayerKeys {
-    let range = range.is_finite().then_some((*range).into());
-    let growth = GrowthKeys { at_zero: SavedLength(*at_zero), slope: *slope, range };
-    match to {
-        DistanceTo::Corridor { width, .. } => {
-            CorridorKeys { strip: StripKeys { width: SavedLength(*width) }, growth, ..Default::default() }
-                .into()
-        }
-        DistanceTo::Outline | DistanceTo::Coasts | DistanceTo::Pieces(_) | DistanceTo::Shapes { .. } => {
-            let target = TargetKeys { boundary: BoundaryKeys::of(to), ..Default::default() };
-            DistanceKeys { target, growth }.into()
-        }
+impl DistanceKeys {
+    /// Returns the keys without the shapes.
+    pub(super) fn of(distance: &DistanceLayer) -> Self {
+        let target = TargetKeys { boundary: BoundaryKeys::of(&distance.to), ..TargetKeys::default() };
+        Self { target, growth: GrowthKeys::of(distance) }
+    }
+}
+
+impl CorridorKeys {
+    /// Returns the keys of a distance from a strip, without the lines along which it goes.
+    pub(super) fn of(distance: &DistanceLayer, width: f64) -> Self {
+        let strip = StripKeys { width: width.into() };
+        Self { along: ShapeKeys::default(), strip, growth: GrowthKeys::of(distance) }
     }
 }
 
@@ -171,7 +171,7 @@ impl TargetKeys {
         }
         match (boundary.to, file, shapes) {
             (None, None, None) => chosen.map(DistanceTo::Pieces).map(CheckedTarget::Boundary).ok_or_else(|| {
-                SavedKind::Distance.missing(
+                DistanceKeys::missing(
                     "needs to = \"outline\" or to = \"coasts\", `pieces` or `types` of the boundary, `file`, a .geojson, \
                      .shp or .gpkg, or `shapes`",
                 )
@@ -193,7 +193,7 @@ impl ShapeKeys {
             (Some(_), None) => Ok(PlacedShapes::InFile),
             (None, Some(shapes)) => checked_shapes(shapes).map(PlacedShapes::InPlace),
             (None, None) => {
-                Err(SavedKind::Corridor.missing("needs `file`, a .geojson, .shp or .gpkg, or `shapes`"))
+                Err(CorridorKeys::missing("needs `file`, a .geojson, .shp or .gpkg, or `shapes`"))
             }
             (Some(_), Some(_)) => Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`.")),
         }
@@ -201,6 +201,11 @@ impl ShapeKeys {
 }
 
 impl GrowthKeys {
+    fn of(DistanceLayer { at_zero, slope, range, .. }: &DistanceLayer) -> Self {
+        let range = range.is_finite().then_some((*range).into());
+        Self { at_zero: (*at_zero).into(), slope: *slope, range }
+    }
+
     fn check(&self) -> Result<(), KeyFault> {
         self.at_zero.checked("at_zero")?;
         let rule = "the growth by unit of distance must be 0 or more, and finite";
@@ -232,11 +237,14 @@ impl KindKeys for DistanceKeys {
 }
 
 impl LoadKind for DistanceKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "distance";
+    const NAME: &str = "Distance";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
         let to = match self.target.checked(D::STORED)? {
             CheckedTarget::Boundary(to) => to,
             CheckedTarget::Shapes(shapes) => {
-                DistanceTo::Shapes { name: layer.file_name(), shapes: shapes.load(layer, data)? }
+                DistanceTo::Shapes { name: origin.file_name(), shapes: shapes.load(origin, data)? }
             }
         };
         Ok(self.growth.layer_of(to))
@@ -260,8 +268,11 @@ impl KindKeys for CorridorKeys {
 }
 
 impl LoadKind for CorridorKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
-        let lines = self.along.along()?.load(layer, data)?;
+    const WORD: &str = "corridor";
+    const NAME: &str = "Corridor";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
+        let lines = self.along.along()?.load(origin, data)?;
         Ok(self.growth.layer_of(DistanceTo::Corridor { lines, width: *self.strip.width }))
     }
 }

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
-use super::super::{LayerData, SavedLayer, SavedQuantity, Stored, compiled};
-use super::{KindKeys, LoadKind};
+use super::super::{LayerData, LayerOrigin, SavedQuantity, Stored, compiled};
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use crate::io::lengths::{Measure, TextContext};
 use meshbrush_core::field::Formula;
@@ -47,6 +47,9 @@ impl KindKeys for FormulaKeys {
 }
 
 impl LoadKind for FormulaKeys {
+    const WORD: &str = "formula";
+    const NAME: &str = "Formula";
+
     /// A target diameter may be a length with a unit.
     fn read_lengths(&mut self, context: &TextContext) -> Result<(), KeyFault> {
         if self.quantity == SavedQuantity::Diameter && Length::with_unit(&self.formula).is_some() {
@@ -57,7 +60,7 @@ impl LoadKind for FormulaKeys {
         Ok(())
     }
 
-    fn load<D: LayerData>(&self, _: &SavedLayer, _: &mut D) -> Result<LayerKind, D::Error> {
+    fn load<D: LayerData>(&self, _: &LayerOrigin, _: &mut D) -> Result<LayerKind, D::Error> {
         Ok(LayerKind::Formula(FormulaLayer { quantity: self.quantity.into(), formula: self.compiled()? }))
     }
 }

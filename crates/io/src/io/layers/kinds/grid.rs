@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::super::checks::rect_of;
-use super::super::{RasterFile, SavedKind, Stored};
+use super::super::{RasterFile, Stored};
 use crate::io::{KeyFault, RasterFormat};
 
 /// Which raster a layer reads, and where it lies.
@@ -21,14 +21,24 @@ pub struct GridKeys {
 }
 
 impl GridKeys {
-    pub(super) fn check(&self, kind: SavedKind, stored: Stored) -> Result<(), KeyFault> {
-        kind.needed("file", self.file.as_ref())?;
-        if stored == Stored::InFiles { self.raster_file(kind).map(|_| ()) } else { Ok(()) }
+    /// Checks them for a layer; `missing` is the fault of its kind where it lacks something.
+    pub(super) fn check(
+        &self,
+        missing: impl FnOnce(&str) -> KeyFault,
+        stored: Stored,
+    ) -> Result<(), KeyFault> {
+        if self.file.is_none() {
+            return Err(missing("needs `file`"));
+        }
+        if stored == Stored::InFiles { self.raster_file().map(|_| ()) } else { Ok(()) }
     }
 
-    /// Returns the file with the pixels of a layer of a kind.
-    pub(in super::super) fn raster_file(&self, kind: SavedKind) -> Result<RasterFile, KeyFault> {
-        let path = kind.needed("file", self.file.clone())?;
+    /// Returns the file with the pixels.
+    ///
+    /// # Errors
+    /// Fails when it is no raster.
+    pub fn raster_file(&self) -> Result<RasterFile, KeyFault> {
+        let path = self.file.clone().unwrap_or_default();
         let bounds = self.bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))?;
         match RasterFormat::from_path(&path) {
             Ok(format) => Ok(RasterFile { path, format, bounds }),

@@ -6,16 +6,18 @@ mod depth;
 mod distance;
 mod formula;
 mod grid;
+mod kind_keys;
 mod paint;
 mod raster;
 mod surface;
 mod threats;
 mod widths;
 
+use std::fmt;
 use std::ops::{Deref, DerefMut};
-use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use serde::de::{EnumAccess, Error as _, VariantAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 pub use band::{BandKeys, StepKeys};
 pub use depth::{
@@ -24,99 +26,42 @@ pub use depth::{
 pub use distance::{BoundaryKeys, CorridorKeys, DistanceKeys, GrowthKeys, ShapeKeys, StripKeys, TargetKeys};
 pub use formula::FormulaKeys;
 pub use grid::GridKeys;
+pub use kind_keys::KindKeys;
+use kind_keys::LoadKind;
 pub use paint::PaintKeys;
 pub use raster::{RasterKeys, ReadingKeys, SavedKnot};
 pub use surface::{GoalKeys, SurfaceKeys};
 pub use threats::ThreatKeys;
 pub use widths::{FeatureSizeKeys, StraitKeys, WidthKeys};
 
-use super::{Entries, KeyGroup, LayerData, SavedLayer, Stored};
+use super::{KeyGroup, LayerData, LayerOrigin, TableEntries};
 use crate::io::KeyFault;
-use crate::io::lengths::TextContext;
-use meshbrush_core::layers::{Layer, LayerKind};
-use meshbrush_core::raster::RasterValues;
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
-/// What the keys of a kind of layer say.
-pub trait KindKeys {
-    /// Checks every value. Files are not read.
-    ///
-    /// # Errors
-    /// Fails for the first key that is missing, or has a value that cannot be used.
-    fn check(&self, stored: Stored) -> Result<(), KeyFault>;
-
-    /// Returns the place of a raster, for a kind that reads one.
-    fn grid(&self) -> Option<&GridKeys> {
-        None
-    }
-
-    /// Returns the place of a raster, for a kind that reads one.
-    fn grid_mut(&mut self) -> Option<&mut GridKeys> {
-        None
-    }
-
-    /// Returns the file with the data, if one is given.
-    fn file(&self) -> Option<&Path> {
-        self.grid()?.file.as_deref()
-    }
-
-    /// Returns the key for the file with the data, for a kind that has one.
-    fn file_key(&mut self) -> Option<&mut Option<PathBuf>> {
-        self.grid_mut().map(|grid| &mut grid.file)
-    }
-
-    /// Returns the kind of the values of its raster, if it reads one.
-    fn raster_values(&self) -> Option<RasterValues> {
-        self.grid().map(|_| RasterValues::Any)
-    }
-
-    /// Returns whether it asks for risk.
-    fn is_risk(&self) -> bool {
-        false
-    }
-
-    /// Returns whether it needs both ends of the scale from the smallest to the largest target diameter.
-    fn uses_scale(&self) -> bool {
-        self.is_risk()
-    }
-
-    /// Returns whether it needs the depth of the water of another layer.
-    fn uses_depth(&self) -> bool {
-        false
-    }
-}
-
-/// Keys that make a layer of a stack.
-pub(super) trait LoadKind {
-    /// Returns the kind, with its data. The keys are those of `layer`.
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error>;
-
-    /// Reads lengths in the place of something else.
-    fn read_lengths(&mut self, _: &TextContext) -> Result<(), KeyFault> {
-        Ok(())
-    }
-}
-
-/// Makes the kinds of layers from their list: names, words, names of layers, and the structs of their keys.
+/// Makes the kinds of layers from their list of names and of the structs of their keys.
 macro_rules! saved_kinds {
-    ($($(#[$doc:meta])* $kind:ident($keys:ty) $word:literal $name:literal,)+) => {
+    ($($(#[$doc:meta])* $kind:ident($keys:ty),)+) => {
         /// The kinds of layers.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum SavedKind {
-            $($(#[$doc])* #[serde(rename = $word)] $kind,)+
+            $($(#[$doc])* $kind,)+
         }
 
         impl SavedKind {
             /// All kinds.
             pub const ALL: &[Self] = &[$(Self::$kind),+];
 
+            /// The words of all kinds.
+            pub const WORDS: &[&str] = &[$(<$keys>::WORD),+];
+
             /// Returns the word.
             pub fn word(self) -> &'static str {
-                match self { $(Self::$kind => $word),+ }
+                match self { $(Self::$kind => <$keys>::WORD),+ }
             }
 
             /// Returns the name of a layer that is given none.
             pub fn default_name(self) -> &'static str {
-                match self { $(Self::$kind => $name),+ }
+                match self { $(Self::$kind => <$keys>::NAME),+ }
             }
 
             /// Returns the keys of this kind alone.
@@ -139,7 +84,7 @@ macro_rules! saved_kinds {
             }
 
             /// Takes the keys of a kind out of a table.
-            pub(super) fn take(kind: SavedKind, entries: &mut Entries<'_>) -> Result<Self, KeyFault> {
+            pub(super) fn take(kind: SavedKind, entries: &mut TableEntries<'_>) -> Result<Self, KeyFault> {
                 match kind {
                     $(SavedKind::$kind => {
                         let mut keys = <$keys as KeyGroup>::take(entries)?;
@@ -151,10 +96,10 @@ macro_rules! saved_kinds {
 
             pub(super) fn load<D: LayerData>(
                 &self,
-                layer: &SavedLayer,
+                origin: &LayerOrigin,
                 data: &mut D,
             ) -> Result<LayerKind, D::Error> {
-                match self { $(Self::$kind(keys) => keys.load(layer, data)),+ }
+                match self { $(Self::$kind(keys) => keys.load(origin, data)),+ }
             }
         }
 
@@ -182,27 +127,27 @@ macro_rules! saved_kinds {
 
 saved_kinds! {
     /// Paint.
-    Paint(PaintKeys) "paint" "Paint",
+    Paint(PaintKeys),
     /// A formula in x and y.
-    Formula(FormulaKeys) "formula" "Formula",
+    Formula(FormulaKeys),
     /// Values by pixel.
-    Raster(RasterKeys) "raster" "Raster",
+    Raster(RasterKeys),
     /// Points with a range.
-    Threats(ThreatKeys) "threats" "Threats",
+    Threats(ThreatKeys),
     /// The distance to shapes.
-    Distance(DistanceKeys) "distance" "Distance",
+    Distance(DistanceKeys),
     /// The distance to a strip along lines.
-    Corridor(CorridorKeys) "corridor" "Corridor",
+    Corridor(CorridorKeys),
     /// One diameter where a raster's value lies between two numbers.
-    Band(BandKeys) "band" "Band",
+    Band(BandKeys),
     /// Depths of water.
-    Depth(DepthKeys) "depth" "Depth",
+    Depth(DepthKeys),
     /// Triangles across straits.
-    Straits(StraitKeys) "straits" "Straits",
+    Straits(StraitKeys),
     /// Triangles across the water.
-    FeatureSize(FeatureSizeKeys) "feature-size" "Feature size",
+    FeatureSize(FeatureSizeKeys),
     /// A surface that the mesh is to be close to.
-    Surface(SurfaceKeys) "surface" "Surface",
+    Surface(SurfaceKeys),
 }
 
 impl SavedKind {
@@ -210,15 +155,34 @@ impl SavedKind {
     pub fn of(layer: &Layer) -> Self {
         LayerKeys::of(layer).kind()
     }
+}
 
-    /// Returns the fault of a kind that lacks something. `needs` is a verb with its object.
-    pub(super) fn missing(self, needs: &str) -> KeyFault {
-        KeyFault::entry("kind", format!("a layer of the kind \"{}\" {needs}.", self.word()))
+impl Serialize for SavedKind {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.word())
+    }
+}
+
+impl<'de> Deserialize<'de> for SavedKind {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_enum("SavedKind", Self::WORDS, KindVisitor)
+    }
+}
+
+struct KindVisitor;
+
+impl<'de> Visitor<'de> for KindVisitor {
+    type Value = SavedKind;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the kind of a layer")
     }
 
-    /// Returns the value of a key, which this kind needs.
-    fn needed<T>(self, key: &'static str, value: Option<T>) -> Result<T, KeyFault> {
-        value.ok_or_else(|| self.missing(&format!("needs `{key}`")))
+    fn visit_enum<A: EnumAccess<'de>>(self, from: A) -> Result<SavedKind, A::Error> {
+        let (word, rest): (String, _) = from.variant()?;
+        rest.unit_variant()?;
+        let found = SavedKind::ALL.iter().copied().find(|kind| kind.word() == word);
+        found.ok_or_else(|| A::Error::unknown_variant(&word, SavedKind::WORDS))
     }
 }
 
@@ -230,7 +194,10 @@ impl LayerKeys {
             LayerKind::Formula(formula) => FormulaKeys::of(formula).into(),
             LayerKind::Raster(raster) => RasterKeys::of(raster).into(),
             LayerKind::Threats(_) => ThreatKeys::default().into(),
-            LayerKind::Distance(distance) => distance::of(distance),
+            LayerKind::Distance(distance) => match distance.to {
+                DistanceTo::Corridor { width, .. } => CorridorKeys::of(distance, width).into(),
+                _ => DistanceKeys::of(distance).into(),
+            },
             LayerKind::Band(band) => BandKeys::of(band).into(),
             LayerKind::Depth(depths) => DepthKeys::of(depths.sizes()).into(),
             LayerKind::Surface(surface) => SurfaceKeys::of(surface).into(),

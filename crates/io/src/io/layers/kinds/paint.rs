@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::super::{LayerData, SavedLayer, SavedQuantity, Stored};
-use super::{KindKeys, LoadKind};
+use super::super::{LayerData, LayerOrigin, SavedQuantity, Stored};
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use meshbrush_core::layers::{LayerKind, PaintLayer};
 
@@ -50,7 +50,10 @@ impl KindKeys for PaintKeys {
 }
 
 impl LoadKind for PaintKeys {
-    fn load<D: LayerData>(&self, _: &SavedLayer, _: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "paint";
+    const NAME: &str = "Paint";
+
+    fn load<D: LayerData>(&self, _: &LayerOrigin, _: &mut D) -> Result<LayerKind, D::Error> {
         Ok(LayerKind::paint(self.quantity.into()))
     }
 }

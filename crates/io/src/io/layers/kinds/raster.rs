@@ -3,8 +3,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::super::checks::{number_where, positive_length};
-use super::super::{LayerData, SavedLayer, SavedQuantity, Stored, each};
-use super::{GridKeys, KindKeys, LoadKind, SavedKind};
+use super::super::{LayerData, LayerOrigin, SavedQuantity, Stored, each};
+use super::GridKeys;
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::layers::key_group::group_of_groups;
 use crate::io::lengths::SavedLength;
 use crate::io::{KeyFault, RasterFormat};
@@ -69,7 +70,7 @@ impl ReadingKeys {
             (Some(SavedQuantity::Error), None) => Ok(RasterReading::Error),
             (None, Some(knots)) => Ok(RasterReading::Curve(Arc::new(curve(knots)?))),
             (Some(_), Some(_)) => Err(KeyFault::key("curve", "a raster has `as` or `curve`, not both.")),
-            (None, None) => Err(SavedKind::Raster.missing(
+            (None, None) => Err(RasterKeys::missing(
                 "says what its values mean: as = \"risk\", as = \"diameter\", as = \"error\", or a curve, as in \
                  curve = [[0, 0.1], [50, 2]]",
             )),
@@ -81,11 +82,20 @@ impl RasterKeys {
     pub(super) fn of(RasterLayer { reading, .. }: &RasterLayer) -> Self {
         Self { grid: GridKeys::default(), reading: ReadingKeys::of(reading) }
     }
+
+    fn values(&self) -> RasterValues {
+        match self.reading.read_as {
+            Some(SavedQuantity::Risk) => RasterValues::Risk,
+            Some(SavedQuantity::Diameter) => RasterValues::Diameter,
+            Some(SavedQuantity::Error) => RasterValues::Error,
+            None => RasterValues::Any,
+        }
+    }
 }
 
 impl KindKeys for RasterKeys {
     fn check(&self, stored: Stored) -> Result<(), KeyFault> {
-        self.grid.check(SavedKind::Raster, stored)?;
+        self.grid.check(Self::missing, stored)?;
         self.reading.checked().map(|_| ())
     }
 
@@ -95,15 +105,6 @@ impl KindKeys for RasterKeys {
 
     fn grid_mut(&mut self) -> Option<&mut GridKeys> {
         Some(&mut self.grid)
-    }
-
-    fn raster_values(&self) -> Option<RasterValues> {
-        Some(match self.reading.read_as {
-            Some(SavedQuantity::Risk) => RasterValues::Risk,
-            Some(SavedQuantity::Diameter) => RasterValues::Diameter,
-            Some(SavedQuantity::Error) => RasterValues::Error,
-            None => RasterValues::Any,
-        })
     }
 
     fn is_risk(&self) -> bool {
@@ -119,8 +120,11 @@ impl KindKeys for RasterKeys {
 }
 
 impl LoadKind for RasterKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
-        let (source, _) = layer.raster_source(data)?;
+    const WORD: &str = "raster";
+    const NAME: &str = "Raster";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
+        let (source, _) = origin.raster(&self.grid, self.values(), data)?;
         Ok(LayerKind::Raster(RasterLayer { source, reading: self.reading.checked()? }))
     }
 }

@@ -1,12 +1,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::checks::number_where;
-use super::super::{LayerData, SavedLayer, SavedNorm, Stored, compiled, in_direction};
-use super::{GridKeys, KindKeys, LoadKind, SavedKind};
+use super::super::{LayerData, LayerOrigin, SavedNorm, Stored, compiled, in_direction};
+use super::GridKeys;
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use crate::io::layers::key_group::group_of_groups;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use meshbrush_core::raster::RasterValues;
 
 /// The keys of a surface.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -70,8 +72,9 @@ impl GoalKeys {
             (Some(_), Some(_)) => {
                 Err(KeyFault::key("at_most", "a surface has `within` or `at_most`, not both."))
             }
-            (None, None) => Err(SavedKind::Surface
-                .missing("needs `within`, the largest error, or `at_most`, the largest number of triangles")),
+            (None, None) => Err(SurfaceKeys::missing(
+                "needs `within`, the largest error, or `at_most`, the largest number of triangles",
+            )),
         }
     }
 }
@@ -84,8 +87,8 @@ impl KindKeys for SurfaceKeys {
                 Err(KeyFault::key("formula", "the surface is in `file` or in `formula`, not in both."))
             }
             (Some(text), None) => compiled("formula", text, Formula::parse).map(|_| ()),
-            (None, Some(_)) => self.grid.check(SavedKind::Surface, stored),
-            (None, None) => Err(SavedKind::Surface.missing("needs `file`, a raster, or `formula`")),
+            (None, Some(_)) => self.grid.check(Self::missing, stored),
+            (None, None) => Err(SurfaceKeys::missing("needs `file`, a raster, or `formula`")),
         }
     }
 
@@ -100,13 +103,16 @@ impl KindKeys for SurfaceKeys {
 }
 
 impl LoadKind for SurfaceKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "surface";
+    const NAME: &str = "Surface";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
         let (goal, norm) = (self.goal.checked()?, self.goal.norm.map(SurfaceNorm::from).unwrap_or_default());
         if let Some(text) = &self.goal.formula {
             let source = SurfaceSource::Formula(compiled("formula", text, Formula::parse)?);
             return Ok(LayerKind::Surface(Surface { source, goal, norm }));
         }
-        let (source, facts) = layer.raster_source(data)?;
+        let (source, facts) = origin.raster(&self.grid, RasterValues::Any, data)?;
         let surface = Surface { source: SurfaceSource::Raster(source), goal, norm };
         Ok(in_direction(LayerKind::Surface(surface), facts.positive))
     }

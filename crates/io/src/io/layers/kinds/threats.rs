@@ -2,8 +2,8 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::super::{LayerData, SavedLayer, SavedThreat, Stored, each};
-use super::{KindKeys, LoadKind, SavedKind};
+use super::super::{LayerData, LayerOrigin, SavedThreat, Stored, each};
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use meshbrush_core::layers::{LayerKind, Threat, ThreatError};
 
@@ -30,7 +30,7 @@ impl ThreatKeys {
             }
             (None, None) => {
                 let needs = "needs `file`, a .csv, or `threats`, a list of { x, y, range, peak, law }";
-                Err(SavedKind::Threats.missing(needs))
+                Err(ThreatKeys::missing(needs))
             }
         }
     }
@@ -55,10 +55,13 @@ impl KindKeys for ThreatKeys {
 }
 
 impl LoadKind for ThreatKeys {
-    fn load<D: LayerData>(&self, layer: &SavedLayer, data: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "threats";
+    const NAME: &str = "Threats";
+
+    fn load<D: LayerData>(&self, origin: &LayerOrigin, data: &mut D) -> Result<LayerKind, D::Error> {
         Ok(LayerKind::Threats(match self.in_place()? {
-            Some(list) => layer.indexed_threats(list)?,
-            None => data.threats(layer)?,
+            Some(list) => origin.indexed_threats(list)?,
+            None => data.threats(origin)?,
         }))
     }
 }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::checks::number_where;
-use super::super::{LayerData, SavedLayer, Stored};
-use super::{KindKeys, LoadKind};
+use super::super::{LayerData, LayerOrigin, Stored};
+use super::kind_keys::{KindKeys, LoadKind};
 use crate::io::KeyFault;
 use crate::io::lengths::SavedLength;
 use meshbrush_core::layers::{FeatureSize, LayerKind, MedialAxis, MedialBalls, Straits};
@@ -68,7 +68,10 @@ impl KindKeys for StraitKeys {
 }
 
 impl LoadKind for StraitKeys {
-    fn load<D: LayerData>(&self, _: &SavedLayer, _: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "straits";
+    const NAME: &str = "Straits";
+
+    fn load<D: LayerData>(&self, _: &LayerOrigin, _: &mut D) -> Result<LayerKind, D::Error> {
         let found = MedialBalls::unknown(self.0.between());
         Ok(LayerKind::Straits(Straits { across: self.0.across, found }))
     }
@@ -81,7 +84,10 @@ impl KindKeys for FeatureSizeKeys {
 }
 
 impl LoadKind for FeatureSizeKeys {
-    fn load<D: LayerData>(&self, _: &SavedLayer, _: &mut D) -> Result<LayerKind, D::Error> {
+    const WORD: &str = "feature-size";
+    const NAME: &str = "Feature size";
+
+    fn load<D: LayerData>(&self, _: &LayerOrigin, _: &mut D) -> Result<LayerKind, D::Error> {
         let found = MedialAxis::unknown(self.0.between());
         Ok(LayerKind::FeatureSize(FeatureSize { across: self.0.across, found }))
     }
