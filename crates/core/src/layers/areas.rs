@@ -314,8 +314,16 @@ mod tests {
             gradation: None,
             projection: None,
         };
-        let context = ExtentContext { spec: &spec, paint: &paint, longest: 1.0, greatest_scale: 1.0 };
-        let Extent::Within(rects) = layer.extent(&context) else { panic!("it has an end") };
+        let context = ExtentContext {
+            ceiling: 1.0,
+            is_ordered: true,
+            outline: None,
+            paint: &paint,
+            greatest_scale: 1.0,
+        };
+        let Extent::Within(rects) = layer.kind.extent(layer.slot(), &context) else {
+            panic!("it has an end")
+        };
         let [extent] = rects[..] else { panic!("{rects:?}") };
         let field = SizeField::new(spec, &Lattice::covering(Rect::UNIT, 0.05, 1000).unwrap());
         let points = (0..10_000).map(|n| dvec2(f64::from(n % 100), f64::from(n / 100)) / 99.0);

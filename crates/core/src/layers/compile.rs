@@ -29,7 +29,7 @@ impl Layer {
     fn compile(&self, stack: &[Self], plane: &CompiledPlane) -> CompiledLayer {
         let asked = match self.is_of_errors() {
             true => (plane.diameters(), Values::Nothing),
-            false => self.kind.compile(self, plane),
+            false => self.kind.compile(self.slot(), plane),
         };
         let covers = hiding(stack, self)
             .map(|(above, depths)| Cover::new(&depths.source().raster, above.mask.as_ref(), plane.lattice))

@@ -19,7 +19,9 @@ use std::sync::Arc;
 
 use super::extent::{Extent, ExtentContext};
 use super::kinds::areas_that_differ;
-use super::risk::{RiskField, RiskLayer, RiskSource};
+use super::risk::{RiskField, RiskLayer};
+use super::risk_source::RiskSource;
+use super::value_change::{LayerEdit, ValueChange, direction};
 use super::{Combine, Layer, LayerId, PaintLayers, SizeFieldSpec, hidden_differently, surface_changes};
 use crate::field::Transfer;
 use crate::geometry::Rect;
@@ -51,40 +53,6 @@ pub(crate) struct Circumstances<'a> {
     pub outline_areas: Option<&'a [Rect]>,
 }
 
-/// The edit of the settings of a layer that stays visible, and is combined as before.
-#[derive(Clone, Copy, Debug)]
-pub struct LayerEdit<'a> {
-    /// How it is combined with the layers below.
-    pub combine: Combine,
-    /// What decides where the layer asks for something now.
-    pub new: &'a ExtentContext<'a>,
-    /// What decided it before.
-    pub old: &'a ExtentContext<'a>,
-    /// Whether the outlines differ.
-    pub has_new_outline: bool,
-    /// See [`Circumstances`].
-    pub outline_areas: Option<&'a [Rect]>,
-}
-
-/// How the diameters of a layer change by an edit of its settings.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ValueChange {
-    /// They stay.
-    Nothing,
-    /// They change in one direction, wherever the layer asks for something before or after.
-    Anywhere(TargetChange),
-    /// They change in some rectangles only, in steps with a direction each. In a floor or a replacement the
-    /// directions do not count.
-    Within(Vec<(Vec<Rect>, TargetChange)>),
-}
-
-impl ValueChange {
-    /// Returns a change in some direction, if there is one.
-    pub fn of(direction: Option<TargetChange>) -> Self {
-        direction.map_or(Self::Nothing, Self::Anywhere)
-    }
-}
-
 impl SizeFieldSpec {
     /// Returns the steps from an earlier specification to this one; none where the mesh is the same.
     pub(crate) fn difference(&self, old: &Self, circumstances: &Circumstances) -> Vec<SpecChange> {
@@ -97,8 +65,8 @@ impl SizeFieldSpec {
         let before = limits(transfer, *unasked, circumstances.longest);
 
         let mut steps = Steps {
-            new: circumstances.context(new),
-            old: circumstances.context(old),
+            new: circumstances.extents(new),
+            old: circumstances.extents(old),
             outline_areas: circumstances.outline_areas,
             has_new_curve: !new.transfer.has_curve_of(transfer),
             has_new_outline: outline_now != outline,
@@ -124,9 +92,13 @@ impl SizeFieldSpec {
 }
 
 impl<'a> Circumstances<'a> {
-    fn context(&self, spec: &'a SizeFieldSpec) -> ExtentContext<'a> {
+    fn extents(&self, spec: &'a SizeFieldSpec) -> StackExtents<'a> {
         let Self { paint, longest, greatest_scale, outline_areas: _ } = *self;
-        ExtentContext { spec, paint, longest, greatest_scale }
+        let ceiling = spec.transfer.h_max.min(longest);
+        let is_ordered = spec.is_ordered(longest);
+        let outline = spec.outline.as_ref();
+        let context = ExtentContext { ceiling, is_ordered, outline, paint, greatest_scale };
+        StackExtents { layers: &spec.layers, context }
     }
 }
 
@@ -154,20 +126,6 @@ fn slope(gradation: Option<f64>) -> f64 {
     gradation.unwrap_or(f64::INFINITY)
 }
 
-/// Returns the direction of a change of numbers with which h̄ grows; `None` where none differs.
-pub fn direction<const N: usize>(new: [f64; N], old: [f64; N]) -> Option<TargetChange> {
-    let all = |holds: fn(&f64, &f64) -> bool| new.iter().zip(&old).all(|(new, old)| holds(new, old));
-    if all(|new, old| new == old) {
-        None
-    } else if all(|new, old| new <= old) {
-        Some(Finer)
-    } else if all(|new, old| new >= old) {
-        Some(Coarser)
-    } else {
-        Some(Any)
-    }
-}
-
 /// Returns the change of h̄ where a layer no longer has a target.
 fn when_lost(combine: Combine) -> TargetChange {
     match combine {
@@ -186,10 +144,28 @@ fn when_gained(combine: Combine) -> TargetChange {
     }
 }
 
+/// Where the layers of a stack can ask for something.
+struct StackExtents<'a> {
+    layers: &'a [Layer],
+    context: ExtentContext<'a>,
+}
+
+impl StackExtents<'_> {
+    /// Returns where a layer of the stack, if it is visible, can ask for something that matters to the mesh.
+    fn of(&self, layer: &Layer) -> Extent {
+        let extent = match &layer.kind {
+            kind if kind.is_of_errors() => Extent::NOTHING,
+            kind if kind.uses_depth() => Extent::of(surface_changes(self.layers, &[])),
+            kind => kind.extent(layer.slot(), &self.context),
+        };
+        extent.within_mask(layer.mask.as_ref())
+    }
+}
+
 /// The steps of an edit, as far as they are known.
 struct Steps<'a> {
-    new: ExtentContext<'a>,
-    old: ExtentContext<'a>,
+    new: StackExtents<'a>,
+    old: StackExtents<'a>,
     outline_areas: Option<&'a [Rect]>,
     has_new_curve: bool,
     has_new_outline: bool,
@@ -216,7 +192,7 @@ impl Steps<'_> {
 
     /// A change wherever one of two states of a layer asks for something.
     fn add_both(&mut self, new: &Layer, old: &Layer, change: TargetChange) {
-        let (before, after) = (old.extent(&self.old), new.extent(&self.new));
+        let (before, after) = (self.old.of(old), self.new.of(new));
         let combine = if new.combine == Combine::Finest { old.combine } else { new.combine };
         if before != after {
             self.add(old, combine, before, change);
@@ -229,7 +205,7 @@ impl Steps<'_> {
             of.visible && layers.iter().any(|layer| layer.id == of.id && layer.visible)
         };
         for layer in old.iter().filter(|layer| layer.visible && !visible(new, layer)) {
-            self.add(layer, layer.combine, layer.extent(&self.old), when_lost(layer.combine));
+            self.add(layer, layer.combine, self.old.of(layer), when_lost(layer.combine));
         }
         let stayed: Vec<&Layer> = old.iter().filter(|layer| visible(new, layer)).collect();
         let kept: Vec<&Layer> = new.iter().filter(|layer| visible(old, layer)).collect();
@@ -245,7 +221,7 @@ impl Steps<'_> {
             }
         }
         for layer in new.iter().filter(|layer| layer.visible && !visible(old, layer)) {
-            self.add(layer, layer.combine, layer.extent(&self.new), when_gained(layer.combine));
+            self.add(layer, layer.combine, self.new.of(layer), when_gained(layer.combine));
         }
     }
 
@@ -259,7 +235,7 @@ impl Steps<'_> {
         if moved.iter().any(|layer| layer.combine != Combine::Finest) {
             for layer in moved {
                 // Its request can now count for more or for less, whatever it is.
-                self.add(layer, Combine::Replace, layer.extent(&self.old), Any);
+                self.add(layer, Combine::Replace, self.old.of(layer), Any);
             }
         }
     }
@@ -285,10 +261,10 @@ impl Steps<'_> {
         match (mask, old_mask) {
             _ if mask == old_mask => {}
             (Some(_), None) if !has_new_values => {
-                self.add(old, *combine, old.extent(&self.old), when_lost(*combine))
+                self.add(old, *combine, self.old.of(old), when_lost(*combine))
             }
             (None, Some(_)) if !has_new_values => {
-                self.add(new, *combine, new.extent(&self.new), when_gained(*combine))
+                self.add(new, *combine, self.new.of(new), when_gained(*combine))
             }
             _ => return self.add_both(new, old, Any),
         }
@@ -307,8 +283,8 @@ impl Steps<'_> {
         }
         let edit = LayerEdit {
             combine: new.combine,
-            new: &self.new,
-            old: &self.old,
+            new: &self.new.context,
+            old: &self.old.context,
             has_new_outline: self.has_new_outline,
             outline_areas: self.outline_areas,
         };

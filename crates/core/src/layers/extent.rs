@@ -1,6 +1,6 @@
 //! The area in which a layer can have a target diameter.
 
-use super::{Combine, Layer, Mask, PaintLayers, SizeFieldSpec};
+use super::{Combine, Mask, PaintLayers, Shapes};
 use crate::geometry::{Rect, z_order};
 
 /// A part of the plane, in world units.
@@ -15,12 +15,14 @@ pub enum Extent {
 /// The data besides the layer that decide its extent.
 #[derive(Clone, Copy, Debug)]
 pub struct ExtentContext<'a> {
-    /// The size field that the layer belongs to.
-    pub spec: &'a SizeFieldSpec,
+    /// The diameter from which on it makes no difference to the mesh what is asked for, in world units.
+    pub ceiling: f64,
+    /// Whether h̄ is nowhere larger than where no layer asks for anything.
+    pub is_ordered: bool,
+    /// The outline of the domain, if the field has one.
+    pub outline: Option<&'a Shapes>,
     /// The painted pixels.
     pub paint: &'a PaintLayers,
-    /// The diameter of a coarse triangle in world units: nothing coarser than this matters to a mesh.
-    pub longest: f64,
     /// How many times longer than on the Earth a length counts in the plane; 1 without a projection.
     pub greatest_scale: f64,
 }
@@ -71,17 +73,6 @@ impl ExtentContext<'_> {
     /// Returns a diameter from which on it makes no difference to the mesh what a layer asks for that is
     /// combined in this way, in world units. Infinite where no such layer may be left out.
     pub fn ceiling_of(&self, combine: Combine) -> f64 {
-        let ceiling = self.spec.transfer.h_max.min(self.longest);
-        let can_be_left_out = combine == Combine::Finest && self.spec.unasked >= ceiling;
-        if can_be_left_out { ceiling } else { f64::INFINITY }
-    }
-}
-
-impl Layer {
-    /// Returns where the layer, if it is visible, can ask for something that matters to the mesh.
-    pub(super) fn extent(&self, context: &ExtentContext) -> Extent {
-        let of_kind = || self.kind.extent(self, context);
-        let extent = if self.is_of_errors() { Extent::NOTHING } else { of_kind() };
-        extent.within_mask(self.mask.as_ref())
+        if self.is_ordered && combine == Combine::Finest { self.ceiling } else { f64::INFINITY }
     }
 }

@@ -1,6 +1,6 @@
 use glam::DVec2;
 
-use super::{Combine, LayerId, LayerKind, Mask, PaintLayer, PaintLayers, Quantity};
+use super::{Combine, LayerId, LayerKind, LayerSlot, Mask, PaintLayer, PaintLayers, Quantity};
 use crate::field::f32_not_below;
 
 /// One layer of the size field.
@@ -41,6 +41,11 @@ impl Layer {
     pub fn stack(kinds: impl IntoIterator<Item: Into<LayerKind>>) -> Vec<Self> {
         let layer = |(id, kind): (u32, LayerKind)| Self::new(LayerId(id), kind.label(), kind);
         (0..).zip(kinds.into_iter().map(Into::into)).map(layer).collect()
+    }
+
+    /// Returns which layer it is, and how it is combined.
+    pub(super) fn slot(&self) -> LayerSlot {
+        LayerSlot { id: self.id, combine: self.combine }
     }
 
     /// Returns the risk that the layer has at a point in world units, if it is one of risk with a value

@@ -15,6 +15,7 @@ mod feature_size;
 mod idle;
 mod kinds;
 mod layer;
+mod layer_source;
 mod least;
 mod mask;
 #[cfg(test)]
@@ -30,6 +31,7 @@ mod risk;
 mod risk_model;
 mod risk_pixels;
 mod risk_slopes;
+mod risk_source;
 mod sampled;
 mod settled;
 mod size_field;
@@ -44,6 +46,7 @@ mod terms;
 mod threat_models;
 mod threat_series;
 mod threats;
+mod value_change;
 mod defaults;
 
 pub use areas::PaintChange;
@@ -58,10 +61,10 @@ pub use distance::{ShapeList, Shapes, ShapesError};
 pub use engine::DiameterLimit;
 pub use feature_size::{FeatureSize, MedialAxis};
 pub use kinds::{
-    BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerKind, LayerSource, PaintLayer, RasterLayer,
-    RasterReading,
+    BandLayer, DistanceLayer, DistanceTo, FormulaLayer, LayerKind, PaintLayer, RasterLayer, RasterReading,
 };
 pub use layer::Layer;
+pub use layer_source::LayerSource;
 pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
 pub(crate) use models::ModelDomain;
@@ -77,5 +80,5 @@ pub use straits::{MedialBall, MedialBalls, Straits};
 pub use surface::{Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource};
 pub use targets::Decision;
 pub use targets_in_order::NODES_AT_A_TIME;
-pub use terms::{Combine, LayerId, Quantity};
+pub use terms::{Combine, LayerId, LayerSlot, Quantity};
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};

@@ -1,15 +1,14 @@
 //! The risk of a stack of layers: at a point, and its range over a rectangle.
 
-use std::sync::Arc;
-
 use glam::DVec2;
 
 use super::engine::asked::Ternary;
 use super::risk_pixels::{RiskWithGaps, range_within};
-use super::{Combine, Coverage, Layer, Mask, PaintLayers, Threats};
-use crate::field::{Bounds, Formula};
+use super::risk_source::RiskSource;
+use super::{Combine, Coverage, Layer, Mask, PaintLayers};
+use crate::field::Bounds;
 use crate::geometry::Rect;
-use crate::raster::{RasterPyramid, TiledRaster, ValueRange, ValueRanges};
+use crate::raster::{ValueRange, ValueRanges};
 
 /// The risk that a stack of layers has at each point, from 0 to 1.
 ///
@@ -32,16 +31,6 @@ pub(super) struct RiskLayer {
     pub combine: Combine,
     pub mask: Option<Mask>,
     pub source: RiskSource,
-}
-
-/// Where the risks of a layer come from.
-#[derive(Clone, Debug)]
-pub enum RiskSource {
-    /// Painted pixels.
-    Paint(TiledRaster),
-    Raster(Arc<RasterPyramid>),
-    Formula(Formula),
-    Threats(Threats),
 }
 
 /// The risks of a layer in a rectangle, and where it has any.
@@ -213,11 +202,12 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
+    use crate::field::Formula;
     use crate::layers::{
         LayerId, LayerKind, PaintLayer, Quantity, RasterLayer, RasterReading, RasterSource, Threat,
         ThreatLaw, Threats,
     };
-    use crate::raster::{PixelGrid, Raster, Tile, TilePlace};
+    use crate::raster::{PixelGrid, Raster, RasterPyramid, Tile, TilePlace, TiledRaster};
 
     fn layers(random: &mut fastrand::Rng) -> (Vec<Layer>, PaintLayers) {
         let mut paint = PaintLayers::default();

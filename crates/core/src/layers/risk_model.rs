@@ -1,7 +1,7 @@
 //! Models of the risk over a rectangle, where it is smooth.
 
 use super::models::ModelDomain;
-use super::risk::RiskSource;
+use super::risk_source::RiskSource;
 use super::{Combine, Coverage, RiskField};
 use crate::field::TaylorModel;
 

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::engine::cone::Cone;
-use super::risk::{RiskField, RiskSource};
+use super::risk::RiskField;
+use super::risk_source::RiskSource;
 use super::{Combine, Coverage, Threat, ThreatLaw, Threats};
 use crate::field::Bounds;
 use crate::geometry::Rect;

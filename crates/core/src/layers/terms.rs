@@ -51,3 +51,12 @@ impl Quantity {
         }
     }
 }
+
+/// A layer in its stack, whatever its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LayerSlot {
+    /// Which layer it is.
+    pub id: LayerId,
+    /// How it is combined with the layers below.
+    pub combine: Combine,
+}

@@ -1,11 +1,11 @@
 //! Bands of the values of a raster.
 
 use super::raster::pixels_of;
-use super::{LayerSource, RasterSource};
-use crate::layers::Layer;
-use crate::layers::difference::{LayerEdit, ValueChange, direction};
+use crate::layers::RasterSource;
 use crate::layers::engine::{CompiledPlane, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
+use crate::layers::value_change::{LayerEdit, ValueChange, direction};
+use crate::layers::{LayerSlot, LayerSource};
 use crate::mesh::TargetChange;
 
 /// One diameter where a raster's value lies between two numbers.
@@ -28,7 +28,7 @@ impl LayerSource for BandLayer {
         "band"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let Self { source, between, diameter } = self;
         let lengths = plane.lengths().clone();
         let reading = Reading::Band { between: *between, diameter: *diameter, lengths };
@@ -39,7 +39,7 @@ impl LayerSource for BandLayer {
         Some(&self.source)
     }
 
-    fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         pixels_of(&self.source)
     }
 

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::raster::pixels_of;
-use super::{LayerSource, RasterSource};
 use crate::domain::{BoundaryMarks, Domain};
+use crate::layers::RasterSource;
 use crate::layers::engine::{CompiledPlane, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{DepthRule, Depths, Layer};
+use crate::layers::{DepthRule, Depths, LayerSlot, LayerSource};
 
 impl LayerSource for Depths {
     fn label(&self) -> &'static str {
@@ -18,9 +18,9 @@ impl LayerSource for Depths {
         "depth"
     }
 
-    fn compile(&self, layer: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, slot: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let values = Values::of_raster(self.deciding(), f32::INFINITY, plane.lattice);
-        (Reading::of_depths(self, layer.combine, plane.lengths()), values)
+        (Reading::of_depths(self, slot.combine, plane.lengths()), values)
     }
 
     fn asks_for_diameters(&self) -> bool {
@@ -45,7 +45,7 @@ impl LayerSource for Depths {
         *self = self.in_plane(domain.projection);
     }
 
-    fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         if self.asks_for_diameters() { pixels_of(self.source()) } else { Extent::NOTHING }
     }
 }

@@ -2,13 +2,12 @@
 
 use glam::DVec2;
 
-use super::LayerSource;
 use crate::domain::{BoundaryMarks, Domain, PieceChoice};
 use crate::geometry::{NumberSet, Rect};
-use crate::layers::difference::{LayerEdit, ValueChange, direction};
 use crate::layers::engine::{CompiledPlane, Profile, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Combine, Layer, Shapes, ShapesError};
+use crate::layers::value_change::{LayerEdit, ValueChange, direction};
+use crate::layers::{Combine, LayerSlot, LayerSource, Shapes, ShapesError};
 use crate::mesh::TargetChange::{self, Any, Coarser, Finer};
 
 /// h̄ grows with the distance.
@@ -80,7 +79,7 @@ impl LayerSource for DistanceLayer {
         if self.to.is_corridor() { "corridor" } else { "distance" }
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let greatest_scale = plane.edge_lengths.greatest_scale();
         let growth = Profile::on_earth(self.to.reach(), self.numbers(), greatest_scale);
         (plane.diameters(), Values::of_distance(self.shapes(plane.outline), growth))
@@ -121,9 +120,9 @@ impl LayerSource for DistanceLayer {
         }
     }
 
-    fn extent(&self, layer: &Layer, context: &ExtentContext) -> Extent {
-        let farthest = self.farthest_in_plane(layer.combine, context);
-        match self.shapes(context.spec.outline.as_ref()) {
+    fn extent(&self, slot: LayerSlot, context: &ExtentContext) -> Extent {
+        let farthest = self.farthest_in_plane(slot.combine, context);
+        match self.shapes(context.outline) {
             None => Extent::NOTHING,
             Some(_) if farthest < 0.0 => Extent::NOTHING,
             Some(shapes) if farthest.is_finite() => {
@@ -180,7 +179,7 @@ impl DistanceLayer {
     /// have.
     fn with_other_outline(&self, old: &Self, edit: &LayerEdit) -> ValueChange {
         let reach = self.farthest_of_both(old, edit);
-        let both_have_outlines = [edit.new, edit.old].iter().all(|context| context.spec.outline.is_some());
+        let both_have_outlines = [edit.new, edit.old].iter().all(|context| context.outline.is_some());
         match edit.outline_areas {
             Some(edges) if self == old && both_have_outlines && reach.is_finite() => {
                 let areas = edges.iter().map(|edge| edge.expanded(reach.max(0.0)));

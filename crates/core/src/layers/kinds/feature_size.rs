@@ -1,10 +1,9 @@
 //! Layers of the feature size.
 
-use super::LayerSource;
 use crate::domain::{BoundaryMarks, Domain};
 use crate::layers::engine::{CompiledPlane, Function, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{FeatureSize, Layer};
+use crate::layers::{FeatureSize, LayerSlot, LayerSource};
 
 impl LayerSource for FeatureSize {
     fn label(&self) -> &'static str {
@@ -15,7 +14,7 @@ impl LayerSource for FeatureSize {
         "feature size"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let function = Function::FeatureSize(self.clone(), plane.edge_lengths.greatest_scale());
         (plane.diameters(), Values::of_diameters(function))
     }
@@ -33,8 +32,8 @@ impl LayerSource for FeatureSize {
     }
 
     /// It grows with the way from the middle of the water.
-    fn extent(&self, layer: &Layer, context: &ExtentContext) -> Extent {
-        let ceiling = context.ceiling_of(layer.combine);
+    fn extent(&self, slot: LayerSlot, context: &ExtentContext) -> Extent {
+        let ceiling = context.ceiling_of(slot.combine);
         match self.found.extent() {
             Some(_) if ceiling == f64::INFINITY => Extent::Everywhere,
             Some(middle) => {

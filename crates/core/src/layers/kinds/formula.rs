@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use super::{LayerSource, RiskSource};
 use crate::field::Formula;
-use crate::layers::difference::{LayerEdit, ValueChange, direction};
 use crate::layers::engine::{CompiledPlane, NO_RISK, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Combine, Layer, Quantity, surface_changes};
+use crate::layers::risk_source::RiskSource;
+use crate::layers::value_change::{LayerEdit, ValueChange, direction};
+use crate::layers::{Combine, LayerSlot, LayerSource, Quantity};
 use crate::mesh::TargetChange;
 use crate::raster::TiledRaster;
 
@@ -29,7 +29,7 @@ impl LayerSource for FormulaLayer {
         "formula"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         (plane.reading(self.quantity, NO_RISK), Values::of_formula(&self.formula, self.quantity, plane))
     }
 
@@ -61,9 +61,8 @@ impl LayerSource for FormulaLayer {
         self.formula.uses_depth()
     }
 
-    fn extent(&self, _: &Layer, context: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         match (self.quantity, self.formula.constant()) {
-            _ if self.uses_depth() => Extent::of(surface_changes(&context.spec.layers, &[])),
             (Quantity::Diameter, Some(f64::INFINITY)) => Extent::NOTHING,
             _ => Extent::Everywhere,
         }

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::{LayerSource, RiskSource};
 use crate::layers::engine::{CompiledPlane, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Layer, Quantity};
+use crate::layers::risk_source::RiskSource;
+use crate::layers::{LayerSlot, LayerSource, Quantity};
 use crate::raster::{TiledRaster, ValueRanges};
 
 /// Paint, whose pixels are in the document.
@@ -28,7 +28,7 @@ impl LayerSource for PaintLayer {
         "paint layer"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         (plane.reading(self.quantity, 0.0), Values::paint())
     }
 
@@ -50,8 +50,8 @@ impl LayerSource for PaintLayer {
         Some(f64::from(if error == Quantity::Error.blank() { f32::INFINITY } else { error }))
     }
 
-    fn extent(&self, layer: &Layer, context: &ExtentContext) -> Extent {
-        let raster = context.paint.get(layer.id).into_iter();
+    fn extent(&self, slot: LayerSlot, context: &ExtentContext) -> Extent {
+        let raster = context.paint.get(slot.id).into_iter();
         Extent::of(raster.flat_map(|raster| raster.tiles().map(|(place, _)| place.area(raster.grid()))))
     }
 }

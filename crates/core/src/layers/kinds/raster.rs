@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{LayerSource, RasterSource, RiskSource};
+use crate::layers::RasterSource;
 use crate::layers::engine::{CompiledPlane, NO_RISK, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Layer, Quantity, ValueCurve};
+use crate::layers::risk_source::RiskSource;
+use crate::layers::{LayerSlot, LayerSource, Quantity, ValueCurve};
 use crate::raster::{RasterValues, TiledRaster};
 
 /// A raster.
@@ -52,7 +53,7 @@ impl LayerSource for RasterLayer {
         "raster"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let (reading, gap) = match &self.reading {
             RasterReading::Risk => (plane.reading(Quantity::Risk, NO_RISK), NO_RISK),
             RasterReading::Diameter | RasterReading::Error => (plane.diameters(), f32::INFINITY),
@@ -97,7 +98,7 @@ impl LayerSource for RasterLayer {
         raster?.sample(point).map(f64::from)
     }
 
-    fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         pixels_of(&self.source)
     }
 }

@@ -1,10 +1,9 @@
 //! Layers of straits.
 
-use super::LayerSource;
 use crate::domain::{BoundaryMarks, Domain};
 use crate::layers::engine::{CompiledPlane, Function, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Layer, Straits};
+use crate::layers::{LayerSlot, LayerSource, Straits};
 
 impl LayerSource for Straits {
     fn label(&self) -> &'static str {
@@ -15,7 +14,7 @@ impl LayerSource for Straits {
         "straits"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let function = Function::Straits(self.clone(), plane.edge_lengths.greatest_scale());
         (plane.diameters(), Values::of_diameters(function))
     }
@@ -32,7 +31,7 @@ impl LayerSource for Straits {
         *self = self.for_domain(domain, marks);
     }
 
-    fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         Extent::of(self.found.extent())
     }
 }

@@ -1,10 +1,10 @@
 //! Layers of surfaces. They ask for no diameter: [`crate::surface`] has what they ask for.
 
-use super::{LayerSource, RasterSource};
-use crate::layers::difference::{LayerEdit, ValueChange};
+use crate::layers::RasterSource;
 use crate::layers::engine::{CompiledPlane, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Layer, Surface, SurfaceSource};
+use crate::layers::value_change::{LayerEdit, ValueChange};
+use crate::layers::{LayerSlot, LayerSource, Surface, SurfaceSource};
 use crate::mesh::TargetChange;
 
 impl LayerSource for Surface {
@@ -16,7 +16,7 @@ impl LayerSource for Surface {
         "surface"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         (plane.diameters(), Values::Nothing)
     }
 
@@ -35,7 +35,7 @@ impl LayerSource for Surface {
         }
     }
 
-    fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         Extent::NOTHING
     }
 

@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use super::{LayerSource, RiskSource};
 use crate::geometry::Rect;
-use crate::layers::difference::{LayerEdit, ValueChange};
 use crate::layers::engine::{Analytic, CompiledPlane, Function, Reading, Values};
 use crate::layers::extent::{Extent, ExtentContext};
-use crate::layers::{Layer, Quantity, Threat, Threats};
+use crate::layers::risk_source::RiskSource;
+use crate::layers::value_change::{LayerEdit, ValueChange};
+use crate::layers::{LayerSlot, LayerSource, Quantity, Threat, Threats};
 use crate::mesh::TargetChange::{Any, Coarser, Finer};
 use crate::raster::TiledRaster;
 
@@ -20,7 +20,7 @@ impl LayerSource for Threats {
         "threats"
     }
 
-    fn compile(&self, _: &Layer, plane: &CompiledPlane) -> (Reading, Values) {
+    fn compile(&self, _: LayerSlot, plane: &CompiledPlane) -> (Reading, Values) {
         let risk = Analytic::new(Function::Threats(self.clone()), Quantity::Risk);
         (plane.reading(Quantity::Risk, 0.0), Values::Analytic(risk))
     }
@@ -41,7 +41,7 @@ impl LayerSource for Threats {
         Some(RiskSource::Threats(self.clone()))
     }
 
-    fn extent(&self, _: &Layer, _: &ExtentContext) -> Extent {
+    fn extent(&self, _: LayerSlot, _: &ExtentContext) -> Extent {
         Extent::of(self.list().iter().filter_map(|threat| reach(Some(threat))))
     }
 
