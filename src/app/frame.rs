@@ -192,6 +192,8 @@ impl App {
         let follows = self.leaves_mesh || self.session.follow(&self.threads, deadline);
         let derives = self.session.advance_derivation(jobs);
         let derives = derives | self.session.find_heights(self.view.space.is_on, jobs);
+        // Pieces of the boundary can be gone to by their names.
+        let derives = derives | (self.dialogs.asks_for_place() && self.session.find_boundary(jobs));
         self.view.follow_heights(&self.session);
         let (features, mut of_window) = self.features_in_context(ctx);
         let features_work = features.follow(&mut of_window);

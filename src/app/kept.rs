@@ -6,10 +6,14 @@ use eframe::egui::Context;
 use eframe::{Storage, get_value, set_value};
 
 use meshbrush_kit::kit::Tab;
+use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::dock::Dock;
 use meshbrush_kit::kit::presentation::Presentation;
 use meshbrush_kit::kit::project::ProjectFile;
+use meshbrush_kit::kit::view::View;
 
+/// Name under which the storage keeps the coordinates that places are written in.
+const COORDINATES_KEY: &str = "coordinates";
 /// Name under which the storage keeps the tab of the lower dock.
 const TAB_KEY: &str = "tab";
 /// Name under which it keeps the recent files.
@@ -28,6 +32,19 @@ pub fn load_tab(dock: &mut Dock, storage: &dyn Storage) {
 /// Keeps the tab for the next run.
 pub fn store_tab(dock: &Dock, storage: &mut dyn Storage) {
     set_value(storage, TAB_KEY, &dock.tab().name());
+}
+
+/// Writes places as in the last run.
+pub fn load_coordinates(view: &mut View, storage: &dyn Storage) {
+    let name: Option<String> = get_value(storage, COORDINATES_KEY);
+    if let Some(style) = name.as_deref().and_then(CoordinateStyle::named) {
+        view.coordinates = style;
+    }
+}
+
+/// Keeps the coordinates of places for the next run.
+pub fn store_coordinates(view: &View, storage: &mut dyn Storage) {
+    set_value(storage, COORDINATES_KEY, &view.coordinates.name());
 }
 
 /// Loads the list of recent files.

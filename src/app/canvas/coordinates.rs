@@ -3,7 +3,9 @@
 use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 use glam::{DVec2, dvec2};
 
-use meshbrush_kit::kit::FrameState;
+use super::graticule;
+use meshbrush_core::earth::{DegreeStyle, EarthPlane, graticule as lines_of_graticule};
+use meshbrush_kit::kit::{FrameState, marks};
 use meshbrush_mesh::text::{LengthUnit, round_below};
 use meshbrush_render::render::north_arrow::north_arrow;
 use meshbrush_render::scene::Camera;
@@ -46,11 +48,24 @@ enum Side {
     Left,
 }
 
+impl Side {
+    /// Returns the way from the side into the canvas.
+    fn inwards(self, length: f32) -> Vec2 {
+        match self {
+            Self::Top => vec2(0.0, length),
+            Self::Left => vec2(length, 0.0),
+        }
+    }
+}
+
 /// Ticks with labels along the upper and the left side of the canvas, where they are shown. They take no
 /// clicks.
 pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
     if !state.view.aids.coordinates {
         return;
+    }
+    if let Some((plane, style)) = state.geographic_plane() {
+        return paint_degrees(ui, rect, camera, plane, style);
     }
     let unit = state.unit();
     let per_point = f64::from(ui.pixels_per_point()) / camera.px_per_world();
@@ -68,6 +83,24 @@ pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>)
     }
 }
 
+/// Ticks where meridians leave the canvas at the top and parallels at the left.
+fn paint_degrees(ui: &Ui, rect: Rect, camera: &Camera, plane: EarthPlane, style: DegreeStyle) {
+    let screen = camera.screen_map();
+    for line in lines_of_graticule(plane, camera.visible_world(), style) {
+        let side = if line.is_meridian { Side::Top } else { Side::Left };
+        let (axis, value) = match side {
+            Side::Top => (1, rect.top()),
+            Side::Left => (0, rect.left()),
+        };
+        let at = |&world: &DVec2| marks::point_from_px(rect, screen(world), ui.pixels_per_point());
+        let points: Vec<Pos2> = line.points.iter().map(at).collect();
+        if let Some(start) = graticule::crossing(&points, axis, value).filter(|at| rect.contains(*at)) {
+            paint_tick(ui, start, side, TICKS[0]);
+            paint_tick_label(ui, rect, start, side, &line.label);
+        }
+    }
+}
+
 struct Ticks {
     step: f64,
     parts: u32,
@@ -81,28 +114,36 @@ fn paint_side(ui: &Ui, rect: Rect, side: Side, [from, to]: [f64; 2], ticks: Tick
     if last - first > 10_000 {
         return;
     }
-    let t = tokens(ui);
     for number in first..=last {
         let value = number as f64 * minor;
         let share = ((value - from) / (to - from)) as f32;
         let major = number % i64::from(ticks.parts) == 0;
-        let length = TICKS[usize::from(!major)];
-        let (start, end) = match side {
-            Side::Top => (pos2(rect.left() + share * rect.width(), rect.top()), vec2(0.0, length)),
-            Side::Left => (pos2(rect.left(), rect.bottom() - share * rect.height()), vec2(length, 0.0)),
+        let start = match side {
+            Side::Top => pos2(rect.left() + share * rect.width(), rect.top()),
+            Side::Left => pos2(rect.left(), rect.bottom() - share * rect.height()),
         };
-        // On a ground of the canvas's colour, ticks are visible on any mesh.
-        ui.painter().line_segment([start, start + end], Stroke::new(3.0, t.canvas.gamma_multiply(0.6)));
-        ui.painter().line_segment([start, start + end], Stroke::new(1.0, t.faint));
+        paint_tick(ui, start, side, TICKS[usize::from(!major)]);
         if major {
-            let text = label(value, ticks.step, ticks.unit);
-            let (anchor, align) = match side {
-                Side::Top => (start + vec2(0.0, length + 1.0), Align2::CENTER_TOP),
-                Side::Left => (start + vec2(length + 3.0, 0.0), Align2::LEFT_CENTER),
-            };
-            paint_label(ui, rect, anchor, align, &text);
+            paint_tick_label(ui, rect, start, side, &label(value, ticks.step, ticks.unit));
         }
     }
+}
+
+/// A tick from a side of the canvas.
+fn paint_tick(ui: &Ui, start: Pos2, side: Side, length: f32) {
+    let t = tokens(ui);
+    let end = start + side.inwards(length);
+    // On a ground of the canvas's colour, ticks are visible on any mesh.
+    ui.painter().line_segment([start, end], Stroke::new(3.0, t.canvas.gamma_multiply(0.6)));
+    ui.painter().line_segment([start, end], Stroke::new(1.0, t.faint));
+}
+
+fn paint_tick_label(ui: &Ui, rect: Rect, start: Pos2, side: Side, text: &str) {
+    let (gap, align) = match side {
+        Side::Top => (1.0, Align2::CENTER_TOP),
+        Side::Left => (3.0, Align2::LEFT_CENTER),
+    };
+    paint_label(ui, rect, start + side.inwards(TICKS[0] + gap), align, text);
 }
 
 /// Returns a coordinate with the digits that tell labels apart.

@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Pos2, Rect, Ui, pos2};
 
 use super::coordinates::paint_label;
-use meshbrush_core::earth::{EarthPlane, graticule};
+use meshbrush_core::earth::{DegreeStyle, EarthPlane, graticule};
 use meshbrush_kit::kit::{FrameState, marks};
 use meshbrush_render::scene::Camera;
 use meshbrush_ui::theme::tokens;
@@ -16,9 +16,10 @@ pub fn paint(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
     let settings = state.session.document().settings();
     let plane = EarthPlane::new(settings.domain.projection, settings.unit);
     let Some(plane) = plane.filter(|_| state.view.aids.graticule) else { return };
+    let style = state.geographic_plane().map_or(DegreeStyle::Minutes, |(_, style)| style);
     let (painter, screen, t) = (ui.painter_at(rect), camera.screen_map(), tokens(ui));
     let at = |world| marks::point_from_px(rect, screen(world), ui.pixels_per_point());
-    let lines = graticule(plane, camera.visible_world());
+    let lines = graticule(plane, camera.visible_world(), style);
     let lines: Vec<_> = lines
         .into_iter()
         .map(|line| (line.points.iter().map(|&point| at(point)).collect::<Vec<Pos2>>(), line))
@@ -39,7 +40,7 @@ pub fn paint(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
 }
 
 /// Returns where a line first crosses a line of the screen: x or y, by the number of the axis.
-fn crossing(points: &[Pos2], axis: usize, value: f32) -> Option<Pos2> {
+pub fn crossing(points: &[Pos2], axis: usize, value: f32) -> Option<Pos2> {
     points.windows(2).find_map(|pair| {
         let [from, to] = [pair[0][axis] - value, pair[1][axis] - value];
         if from * to > 0.0 || from == to {

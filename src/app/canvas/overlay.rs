@@ -38,37 +38,46 @@ pub(super) struct OverlayState {
     pub palette: OverlayPalette,
 }
 
+/// What the colours of an overlay are found from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum OverlaySource {
+    /// The size field, at the pixels of a raster over the domain.
+    Field,
+    /// The data of layers, pixel by pixel of the screen.
+    Data,
+    /// The triangles, pixel by pixel of the screen: each has one colour.
+    Triangles,
+    /// The mesh with its nodes on the outline, which is compared with data pixel by pixel of the screen.
+    Comparison,
+}
+
+impl OverlaySource {
+    fn of(kind: FieldOverlay) -> Self {
+        match kind {
+            FieldOverlay::None | FieldOverlay::Risk | FieldOverlay::Target | FieldOverlay::Layer => {
+                Self::Field
+            }
+            FieldOverlay::Depth | FieldOverlay::Surface => Self::Data,
+            FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => Self::Triangles,
+            FieldOverlay::DepthError | FieldOverlay::SurfaceError => Self::Comparison,
+        }
+    }
+}
+
 impl OverlayState {
-    /// Returns whether colours are found pixel by pixel of the screen, so that they are exact at any zoom.
-    fn is_of_screen(kind: FieldOverlay) -> bool {
-        Self::needs_mesh(kind) || matches!(kind, FieldOverlay::Depth | FieldOverlay::Surface)
-    }
-
-    /// Returns whether colours depend on the triangles.
-    fn needs_mesh(kind: FieldOverlay) -> bool {
-        Self::is_of_triangles(kind) || Self::is_compared(kind)
-    }
-
-    /// Returns whether the mesh with its nodes on the outline is compared with something.
-    fn is_compared(kind: FieldOverlay) -> bool {
-        matches!(kind, FieldOverlay::DepthError | FieldOverlay::SurfaceError)
-    }
-
-    /// Returns whether each triangle has one colour.
-    fn is_of_triangles(kind: FieldOverlay) -> bool {
-        matches!(kind, FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age)
-    }
-
     fn new(kind: FieldOverlay, session: &Session, palette: OverlayPalette, camera: &Camera) -> Self {
         let (document, follower) = (session.document(), session.follower());
         let domain = document.settings().domain.bounds;
-        let (bounds, size) = match Self::is_of_screen(kind) {
-            true => (camera.visible_world(), camera.size_px()),
-            false => (domain, pixels_over(&domain)),
+        let source = OverlaySource::of(kind);
+        let (bounds, size) = match source {
+            OverlaySource::Field => (domain, pixels_over(&domain)),
+            OverlaySource::Data | OverlaySource::Triangles | OverlaySource::Comparison => {
+                (camera.visible_world(), camera.size_px())
+            }
         };
         let mesh = if kind == FieldOverlay::Depth { 0 } else { follower.revision() };
         let document = document.revision();
-        let is_derived = Self::is_compared(kind) && session.derived().is_some();
+        let is_derived = source == OverlaySource::Comparison && session.derived().is_some();
         Self { kind, document, mesh, is_derived, domain, bounds, size, palette }
     }
 }
@@ -129,7 +138,7 @@ impl OverlayColors {
     }
 
     fn start(&mut self, state: OverlayState, session: &Session, jobs: &Jobs) {
-        if matches!(state.kind, FieldOverlay::Depth | FieldOverlay::Surface) {
+        if OverlaySource::of(state.kind) == OverlaySource::Data {
             let layers = session.document().settings().layers.clone();
             let colors = ReliefColors::new(state.clone(), layers, session.follower().surface().cloned());
             self.latest.start_in_slices(state, || Some(colors), ReliefColors::advance, jobs);
@@ -157,48 +166,51 @@ fn colors_of(
     let (document, follower) = (session.document(), session.follower());
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
-    let mesh = OverlayState::needs_mesh(state.kind).then(|| follower.shared_mesh());
-    let is_compared = OverlayState::is_compared(state.kind);
-    let derived = session.derived().filter(|_| is_compared).map(Derived::shared_extract);
+    let source = OverlaySource::of(state.kind);
+    let reads_mesh = matches!(source, OverlaySource::Triangles | OverlaySource::Comparison);
+    let mesh = reads_mesh.then(|| follower.shared_mesh());
+    let derived = session.derived().filter(|_| source == OverlaySource::Comparison);
+    let derived = derived.map(Derived::shared_extract);
     let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
-    let rule = (state.kind == FieldOverlay::Forced)
-        .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
+    let settings = follower.settings();
+    let (domain, rule, limits) = (follower.domain().clone(), settings.rule, settings.limits());
     let surface = follower.surface().cloned();
     move |wanted| {
-        let OverlayState { bounds, size, palette, .. } = &state;
+        let OverlayState { kind, bounds, size, palette, .. } = &state;
         let goes_on = &|| wanted.goes_on();
         let sampled = || field.sampled_while(&paint, *bounds, *size, goes_on);
         let extract = || derived.or_else(|| Some(Arc::new(mesh.as_ref()?.extract().into_owned())));
-        let of_triangles = mesh.as_ref().filter(|_| OverlayState::is_of_triangles(state.kind));
-        let triangles = of_triangles.map(|mesh| PixelTriangles::new(mesh, *bounds, *size));
-        let rgba = match (triangles, ages, rule) {
-            (Some(triangles), Some(ages), _) => {
-                triangles.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
+        let triangles = || Some(PixelTriangles::new(mesh.as_ref()?, *bounds, *size));
+        let rgba = match kind {
+            FieldOverlay::Age => {
+                let ages = ages?;
+                triangles()?.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
             }
-            (Some(triangles), _, Some((domain, rule, limits))) => {
+            FieldOverlay::Forced => {
+                let triangles = triangles()?;
                 let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
                     .with_surface(surface.as_deref());
                 triangles.colors(goes_on, palette.neutral(), |id| {
                     palette.forced(triangles.is_forced(id, &criterion, &limits))
                 })
             }
-            (Some(triangles), ..) => {
-                let mut squares = LevelCache::default();
+            FieldOverlay::Slack => {
+                let (triangles, mut squares) = (triangles()?, LevelCache::default());
                 triangles.colors(goes_on, palette.neutral(), |id| {
                     palette.slack(triangles.slack(id, &field, &paint, &mut squares))
                 })
             }
-            _ if state.kind == FieldOverlay::DepthError => {
-                depth_error_colors(&layers, &*extract()?, &state, goes_on)
-            }
-            _ if state.kind == FieldOverlay::SurfaceError => {
+            FieldOverlay::DepthError => depth_error_colors(&layers, &*extract()?, &state, goes_on),
+            FieldOverlay::SurfaceError => {
                 surface_error_colors(surface.as_deref(), &*extract()?, &state, goes_on)
             }
-            _ if state.kind == FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
-            _ if state.kind == FieldOverlay::Layer => {
+            FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
+            FieldOverlay::Layer => {
                 sampled().map(|(_, layers)| layers.into_iter().map(|layer| palette.layer(layer)).collect())
             }
-            _ => sampled().map(|(target, _)| target_colors(&field, &target, palette)),
+            FieldOverlay::Target => sampled().map(|(target, _)| target_colors(&field, &target, palette)),
+            // `start` finds those of data in slices, and nobody asks for none.
+            FieldOverlay::None | FieldOverlay::Depth | FieldOverlay::Surface => None,
         };
         Some(Pixels { rgba: rgba? })
     }

@@ -2,7 +2,9 @@
 
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
+use meshbrush_core::earth::{DegreeStyle, EarthPlane};
 use meshbrush_kit::kit::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
+use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::view::{CanvasAid, FieldOverlay};
 use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Tab};
 use meshbrush_render::colormap::Colormap;
@@ -25,11 +27,12 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .checked(view.space.is_on),
         item("Edges", ViewCommand::ToggleEdges).key(Key::G).checked(view.edges).group(),
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
-        aid("Graticule", CanvasAid::Graticule).checked(view.aids.graticule).palette_only(),
+        aid("Graticule", CanvasAid::Graticule).checked(view.aids.graticule),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
         aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause).palette_only(),
     ];
+    items.extend(coordinates(state));
     items.extend(overlays(view.overlay));
     let queried = state.session.queried_triangle().map(|id| state.session.view().triangle(id).level());
     let of_triangle = |title: &str, command: fn(u32) -> ViewCommand| {
@@ -60,6 +63,21 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items
 }
 
+/// Returns the coordinates that places may be written in. Documents that do not lie on the Earth have one.
+fn coordinates(state: &FrameState<'_>) -> [CatalogItem; 3] {
+    let settings = state.session.document().settings();
+    let is_on_earth = EarthPlane::new(settings.domain.projection, settings.unit).is_some();
+    CoordinateStyle::ALL.map(|style| {
+        let title = match style {
+            CoordinateStyle::Geographic(DegreeStyle::Decimal) => "Places in degrees",
+            CoordinateStyle::Geographic(DegreeStyle::Minutes) => "Places in degrees and minutes",
+            CoordinateStyle::Plane => "Places in the plane",
+        };
+        let item = CatalogItem::new(Menu::View, title, Command::from(ViewCommand::Coordinates(style)));
+        item.enabled(is_on_earth).checked(is_on_earth && style == state.view.coordinates).palette_only()
+    })
+}
+
 /// Returns the keys that reach everything without a pointer. No menu needs them.
 fn parts() -> [CatalogItem; 3] {
     let item =
@@ -73,8 +91,8 @@ fn parts() -> [CatalogItem; 3] {
 }
 
 /// Returns an entry for each overlay. Those that the menu leaves out are in the list of the panel.
-fn overlays(shown: FieldOverlay) -> [CatalogItem; 11] {
-    FieldOverlay::ALL.map(|overlay| {
+fn overlays(shown: FieldOverlay) -> impl Iterator<Item = CatalogItem> {
+    FieldOverlay::ALL.iter().map(move |&overlay| {
         // The key of the overlay that is shown hides it.
         let next = if overlay == shown { FieldOverlay::None } else { overlay };
         let command = Command::from(ViewCommand::SetOverlay(next));
@@ -82,7 +100,6 @@ fn overlays(shown: FieldOverlay) -> [CatalogItem; 11] {
         match overlay {
             FieldOverlay::Risk => item.key(Key::O).group(),
             FieldOverlay::Target => item.keys(Modifiers::SHIFT, Key::O),
-            FieldOverlay::Layer => item,
             _ => item.palette_only(),
         }
     })

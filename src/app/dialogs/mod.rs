@@ -82,6 +82,11 @@ impl Dialogs {
         self.data.push_back(file);
     }
 
+    /// Returns whether the question for a place is open.
+    pub fn asks_for_place(&self) -> bool {
+        self.open == Some(Dialog::GoTo)
+    }
+
     /// Returns whether a file is being asked for.
     pub fn asks_for_file(&self) -> bool {
         self.file.is_some() || self.system.is_asking()

@@ -3,11 +3,13 @@
 use std::time::Duration;
 
 use eframe::egui::{Align, Layout, Ui};
+use glam::DVec2;
 
 use crate::app::features::inspection::decided_by;
 use meshbrush_core::document::Stage;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::coordinates::PlaceText;
 use meshbrush_kit::kit::readout::{Quantity, value_at};
 use meshbrush_ui::widgets::{StatusCell, format};
 
@@ -15,6 +17,8 @@ use meshbrush_ui::widgets::{StatusCell, format};
 const GAP: f32 = 16.0;
 /// Most letters of the name of a layer.
 const MOST_OF_NAME: usize = 17;
+/// Most letters of a longitude or latitude where a pixel is not smaller than a metre.
+const MOST_OF_ANGLE: usize = 13;
 /// Shown where there is nothing to show.
 const NONE: &str = "–";
 
@@ -37,15 +41,15 @@ pub fn status_bar(ui: &mut Ui, state: &FrameState<'_>) {
 /// Returns the cells at the left, from the left, and those at the right, from the right. In a narrow window
 /// the least important are left out.
 fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
-    let [x, y, target, layer] = pointer_cells(state);
+    let [x, y, target, level, layer] = pointer_cells(state);
     let [triangles, nodes, deepest] = mesh_cells(state);
     let [rule, update] = work_cells(state);
-    let mut left = vec![x, y, target, layer, triangles, nodes, deepest];
+    let mut left = vec![x, y, target, level, layer, triangles, nodes, deepest];
     let mut right = vec![rule, update];
     let room = ui.available_width();
     let width = |cells: &[StatusCell]| cells.iter().map(|cell| cell.width(ui) + GAP).sum::<f32>();
-    // Nodes, the deepest level, the deciding layer.
-    for least_important in [5, 5, 3] {
+    // Nodes, the deepest level, the deciding layer, the level of the triangle.
+    for least_important in [6, 6, 4, 3] {
         if width(&left) + width(&right) - GAP > room {
             left.remove(least_important);
         }
@@ -56,18 +60,22 @@ fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     [left, right]
 }
 
-/// Returns the position of the pointer, h̄ there, and what decides it: a layer or a limit.
-fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
+/// Returns the position of the pointer, h̄ and the level of the triangle there, and what decides h̄: a layer or
+/// a limit.
+fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 5] {
     let unit = state.unit();
     let chars = 8 + unit.after("").chars().count();
-    let cells = |[x, y, target, layer]: [String; 4]| {
-        let cell = |name, value| StatusCell::new(name, value, chars);
+    let of_place = if state.geographic_plane().is_some() { MOST_OF_ANGLE } else { chars };
+    let cells = |PlaceText { names, values: [x, y] }, [target, level, layer]: [String; 3]| {
         let layer = StatusCell::new("by", shortened(layer), MOST_OF_NAME);
-        [cell("x", x), cell("y", y), cell("h̄", target), layer]
+        let [x, y] = [StatusCell::new(names[0], x, of_place), StatusCell::new(names[1], y, of_place)];
+        [x, y, StatusCell::new("h̄", target, chars), StatusCell::new("level", level, 2), layer]
     };
     let pointer = state.pointer.filter(|_| !state.session.awaits_mesh());
-    let Some(point) = pointer else { return cells([NONE; 4].map(String::from)) };
-    let step = state.view.world_per_px();
+    let Some(point) = pointer else {
+        let names = state.place_text(DVec2::ZERO).names;
+        return cells(PlaceText { names, values: [NONE; 2].map(String::from) }, [NONE; 3].map(String::from));
+    };
     let (document, follower) = (state.session.document(), state.session.follower());
     let decision = state.session.decision_at(point);
     let target = match follower.settings().rule {
@@ -75,13 +83,15 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
         RefinementRule::Vertex => value_at(point, document, follower, Quantity::TargetDiameter),
     };
     // The mesh decides: it may lack a part of the bounds.
-    let inside = state.session.locate(point).triangle().is_some();
-    let [target, layer] = match inside {
-        true => [format::length(target, unit), decided_by(&follower.settings().layers, &decision).to_owned()],
-        false => ["outside".into(), NONE.into()],
+    let values = match state.session.locate(point).triangle() {
+        Some(id) => {
+            let level = state.session.view().triangle(id).level().to_string();
+            let by = decided_by(&follower.settings().layers, &decision).to_owned();
+            [format::length(target, unit), level, by]
+        }
+        None => ["outside", NONE, NONE].map(String::from),
     };
-    let [x, y] = [point.x, point.y].map(|value| format::coordinate(value, step, unit));
-    cells([x, y, target, layer])
+    cells(state.place_text(point), values)
 }
 
 /// Returns a name with no more letters than its cell has room for.

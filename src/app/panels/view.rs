@@ -4,8 +4,10 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{Response, ThemePreference, Ui};
 
+use meshbrush_core::earth::EarthPlane;
 use meshbrush_kit::kit::FrameState;
 use meshbrush_kit::kit::command::{Command, SpaceCommand, ViewCommand};
+use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::view::{CanvasAid, FieldOverlay};
 use meshbrush_render::colormap::Colormap;
 use meshbrush_render::scene::{Light, ViewDirection};
@@ -14,7 +16,7 @@ use meshbrush_ui::widgets::{NumberRow, choice_rows, segmented, toggle_row};
 /// What is shown in place of the colours of levels.
 pub fn overlay_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut overlay = state.view.overlay;
-    let choices = FieldOverlay::ALL.map(|overlay| (overlay, overlay.name()));
+    let choices: Vec<_> = FieldOverlay::ALL.iter().map(|&overlay| (overlay, overlay.name())).collect();
     if choice_rows(ui, "Overlay", &mut overlay, &choices).changed() {
         commands.push(Command::from(ViewCommand::SetOverlay(overlay)));
     }
@@ -37,6 +39,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             commands.push(Command::from(ViewCommand::ToggleAid(aid)));
         }
     }
+    coordinate_rows(ui, state, commands);
     space_rows(ui, state, commands);
     ui.add_space(4.0);
     let mut map = view.colormap;
@@ -52,6 +55,20 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ];
     if segmented(ui, "Theme", &mut theme, &themes).changed() {
         commands.push(Command::from(ViewCommand::Theme(theme)));
+    }
+}
+
+/// The coordinates of places, in documents on the Earth.
+fn coordinate_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let settings = state.session.document().settings();
+    if EarthPlane::new(settings.domain.projection, settings.unit).is_none() {
+        return;
+    }
+    let mut style = state.view.coordinates;
+    if choice_rows(ui, "Places in", &mut style, &CoordinateStyle::ALL.map(|style| (style, style.name())))
+        .changed()
+    {
+        commands.push(Command::from(ViewCommand::Coordinates(style)));
     }
 }
 

@@ -9,12 +9,12 @@ use glam::dvec2;
 
 use super::pictures::{drawn_window, picture};
 use super::{
-    TALL, Window, choose, choose_in_palette, key, open_tab, send, set, settings, triangles, type_into,
-    wait_for_jobs, wheel, window, window_of,
+    TALL, Window, choose, choose_in_palette, key, move_to, open_tab, send, set, settings, triangles,
+    type_into, value_of, wait_for_jobs, wait_until, wheel, window, window_of,
 };
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::earth::Projection;
+use meshbrush_core::earth::{Projection, geographic_from_text};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_kit::kit::Tab;
 use meshbrush_kit::kit::command::{BrushCommand, Command, FileCommand, ViewCommand};
@@ -136,6 +136,58 @@ fn a_point_and_a_triangle_are_gone_to_by_their_numbers() {
     let camera = window.state().view().camera.unwrap();
     let diameter = readout.triangle.unwrap().diameter;
     assert!(diameter * camera.px_per_world() >= 59.0, "it is large enough to be seen");
+}
+
+/// In a document on the Earth, places are shown and typed as longitudes and latitudes, or in the plane.
+#[test]
+fn places_on_the_earth_are_shown_and_gone_to_in_the_coordinates_that_are_chosen() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::CelticSea)));
+    wait_for_jobs(&mut window);
+    let projection = settings(&window).domain.projection.expect("it lies on the Earth");
+    let at = projection.plane_from_geographic(dvec2(-5.5, 49.75));
+    let shown = |window: &Window, names: [&str; 2]| {
+        names.map(|name| value_of(window, Role::Definition, name)).join(" ")
+    };
+    for (entry, names) in
+        [("Places in degrees", ["lon", "lat"]), ("Places in degrees and minutes", ["lon", "lat"])]
+    {
+        choose_in_palette(&mut window, entry);
+        move_to(&mut window, at);
+        let text = shown(&window, names);
+        let read = geographic_from_text(&text).unwrap_or_else(|| panic!("{text}"));
+        // A pixel is about 1 km wide.
+        assert!((read - dvec2(-5.5, 49.75)).abs().max_element() < 0.02, "{text}");
+    }
+    choose_in_palette(&mut window, "Places in the plane");
+    move_to(&mut window, at);
+    assert!(shown(&window, ["x", "y"]).contains(" m"), "{}", shown(&window, ["x", "y"]));
+    for text in ["5.5 W 49.75 N", "49° 45′ N, 5° 30′ W", "-5.5°, 49.75°"] {
+        send(&mut window, Command::from(ViewCommand::Fit));
+        window.run();
+        let before = window.state().view().camera.unwrap().px_per_world();
+        ask_for_place(&mut window, text);
+        let camera = window.state().view().camera.unwrap();
+        assert!(camera.visible_world().center().distance(at) < 1.0, "{text}");
+        assert!(camera.px_per_world() > before, "{text}: the triangle is large enough to be seen");
+    }
+}
+
+#[test]
+fn pins_and_pieces_of_the_boundary_are_gone_to_by_their_names() {
+    let mut window = window();
+    set(&mut window, Setting::Pins(vec![dvec2(0.2, 0.3), dvec2(0.7, 0.6)].into()));
+    ask_for_place(&mut window, "pin 2");
+    let center = |window: &Window| window.state().view().camera.unwrap().visible_world().center();
+    assert!(center(&window).distance(dvec2(0.7, 0.6)) < 1e-9);
+    key(&mut window, Modifiers::COMMAND, Key::G);
+    wait_until(&mut window, |window| window.state().session().boundary_pieces().is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    let pieces = window.state().session().boundary_pieces().unwrap().list();
+    let (name, middle) = (pieces[0].name.clone(), Rect::holding(pieces[0].points.iter().copied()).unwrap());
+    ask_for_place(&mut window, &name);
+    assert!(center(&window).distance(middle.center()) < 1e-9, "{name}");
+    assert!(window.state().view().camera.unwrap().visible_world().contains(middle.min));
 }
 
 #[test]

@@ -91,7 +91,7 @@ fn a_mistake_in_a_recipe_is_reported_with_line_and_column() {
         ("key", "[mesh]\nspacng = 1\n", "strait.toml, line 2, column 1: there is no key `spacng` here"),
         (
             "file",
-            "[[layer]]\nkind = \"band\"\nfile = \"no.asc\"\n",
+            "[[layer]]\nkind = \"band\"\nfile = \"no.asc\"\nbetween = [0, 1]\ndiameter = 2\n",
             "strait.toml, line 3, column 1: the file",
         ),
         ("fine", "[mesh]\nspacing = 1e-4\n", "spacing"),

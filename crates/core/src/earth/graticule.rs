@@ -2,18 +2,21 @@
 
 use glam::{DVec2, dvec2};
 
-use super::{EarthPlane, wrapped};
+use super::{DegreeStyle, EarthPlane, GeographicAxis, wrapped};
 use crate::geometry::Rect;
 
-/// Steps between lines in minutes of arc, the largest first. Smaller ones are decimals of a minute.
-const STEPS: [f64; 13] = [1800.0, 900.0, 600.0, 300.0, 120.0, 60.0, 30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5];
+/// Steps between lines in degrees, the largest first. Smaller ones are decimals of a degree.
+const STEPS_IN_DEGREES: [f64; 6] = [30.0, 20.0, 10.0, 5.0, 2.0, 1.0];
+/// Steps between lines in minutes of arc. Smaller ones are decimals of a minute.
+const STEPS_IN_MINUTES: [f64; 13] =
+    [1800.0, 900.0, 600.0, 300.0, 120.0, 60.0, 30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5];
 /// Lines across the area, at least.
 const LEAST_LINES: f64 = 4.0;
 /// Pieces of a line.
 const PIECES: u32 = 64;
 /// Places along each side of the area whose longitudes and latitudes decide which lines cross it.
 const SAMPLES: u32 = 16;
-/// Least step, in minutes of arc: coordinates have no finer differences.
+/// Least step, in degrees or minutes of arc: coordinates have no finer differences.
 const LEAST_STEP: f64 = 1e-6;
 
 /// A meridian or a parallel.
@@ -27,17 +30,18 @@ pub struct GraticuleLine {
     pub points: Vec<DVec2>,
 }
 
-/// Returns the meridians and parallels of round numbers across an area of a plane: from 4 to 11 of each; none
-/// where the area is too small to distinguish even these.
-pub fn graticule(plane: EarthPlane, area: Rect) -> Vec<GraticuleLine> {
+/// Returns the meridians and parallels across an area of a plane whose numbers are round in a style: from 4
+/// to 11 of each; none where the area is too small to distinguish even these.
+pub fn graticule(plane: EarthPlane, area: Rect, style: DegreeStyle) -> Vec<GraticuleLine> {
     let Some(extent) = extent(plane, area) else { return Vec::new() };
     let lines = |is_meridian: bool| {
-        let axis = usize::from(!is_meridian);
-        let (from, to) = (extent.min[axis], extent.max[axis]);
-        values(from, to).map(move |(minutes, step)| GraticuleLine {
+        let place = usize::from(!is_meridian);
+        let (from, to) = (extent.min[place], extent.max[place]);
+        let axis = if is_meridian { GeographicAxis::Longitude } else { GeographicAxis::Latitude };
+        values(from, to, style).map(move |(degrees, step)| GraticuleLine {
             is_meridian,
-            label: label(minutes, step, is_meridian),
-            points: points(plane, extent, is_meridian, minutes / 60.0),
+            label: style.text(axis, degrees, step),
+            points: points(plane, extent, is_meridian, degrees),
         })
     };
     lines(true).chain(lines(false)).collect()
@@ -57,13 +61,17 @@ fn extent(plane: EarthPlane, area: Rect) -> Option<Rect> {
     Rect::holding(unwrapped.filter(|at| at.is_finite()))
 }
 
-/// Returns the multiples of a round step in a range of degrees, in minutes of arc, and the step.
-fn values(from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
-    let limit = 60.0 * (to - from) / LEAST_LINES;
-    let step = STEPS.into_iter().find(|&step| step <= limit).unwrap_or_else(|| decimal_step(limit));
-    let (first, last) = (60.0 * from / step, 60.0 * to / step);
+/// Returns the multiples of a round step in a range of degrees, and the step, both in degrees.
+fn values(from: f64, to: f64, style: DegreeStyle) -> impl Iterator<Item = (f64, f64)> {
+    let (steps, per_degree) = match style {
+        DegreeStyle::Decimal => (&STEPS_IN_DEGREES[..], 1.0),
+        DegreeStyle::Minutes => (&STEPS_IN_MINUTES[..], 60.0),
+    };
+    let limit = per_degree * (to - from) / LEAST_LINES;
+    let step = steps.iter().copied().find(|&step| step <= limit).unwrap_or_else(|| decimal_step(limit));
+    let (first, last) = (per_degree * from / step, per_degree * to / step);
     let count = if limit >= LEAST_STEP { (last.floor() - first.ceil()) as i64 + 1 } else { 0 };
-    (0..count.max(0)).map(move |n| ((first.ceil() + n as f64) * step, step))
+    (0..count.max(0)).map(move |n| ((first.ceil() + n as f64) * step / per_degree, step / per_degree))
 }
 
 /// Returns the largest of 1, 2 and 5 times a power of ten that is at most a limit below 1.
@@ -87,31 +95,6 @@ fn points(plane: EarthPlane, extent: Rect, is_meridian: bool, degrees: f64) -> V
     in_plane.filter(|at| at.is_finite()).collect()
 }
 
-/// Returns a longitude or latitude, given in minutes, with the digits that its step has: `5° 30′ W`.
-fn label(minutes: f64, step: f64, is_meridian: bool) -> String {
-    let decimals = (0..9).find(|&n| (step * libm::exp10(f64::from(n))).fract() < 1e-9).unwrap_or(9);
-    let minutes = if is_meridian { 60.0 * wrapped(minutes / 60.0) } else { minutes };
-    let unit = libm::exp10(f64::from(decimals));
-    let rounded = (minutes.abs() * unit).round() / unit;
-    let (degrees, rest) = ((rounded / 60.0).floor(), rounded % 60.0);
-    let letter = match (is_meridian, minutes > 0.0) {
-        _ if rounded == 0.0 || (is_meridian && rounded == 10_800.0) => "",
-        (true, true) => " E",
-        (true, false) => " W",
-        (false, true) => " N",
-        (false, false) => " S",
-    };
-    match decimals {
-        0 if rest == 0.0 => format!("{degrees}°{letter}"),
-        0 => format!("{degrees}° {rest:02}′{letter}"),
-        _ => format!(
-            "{degrees}° {rest:0width$.precision$}′{letter}",
-            width = decimals as usize + 3,
-            precision = decimals as usize
-        ),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{GeographicExtent, ProjectionChoice};
@@ -122,12 +105,14 @@ mod tests {
         let mut span = 1e-4;
         while span < 300.0 {
             for from in [-3.217, 0.0, 54.9] {
-                let count = values(from, from + span).count();
-                assert!((4..=11).contains(&count), "{count} lines from {from} in {span}°");
+                for style in [DegreeStyle::Decimal, DegreeStyle::Minutes] {
+                    let count = values(from, from + span, style).count();
+                    assert!((4..=11).contains(&count), "{count} lines from {from} in {span}°");
+                }
             }
             span *= 1.07;
         }
-        assert_eq!(values(10.0, 10.0 + 1e-9).count(), 0);
+        assert_eq!(values(10.0, 10.0 + 1e-9, DegreeStyle::Minutes).count(), 0);
     }
 
     #[test]
@@ -143,54 +128,13 @@ mod tests {
     }
 
     #[test]
-    fn labels_have_degrees_minutes_and_a_direction() {
-        for (minutes, step, is_meridian, text) in [
-            (-300.0, 60.0, true, "5° W"),
-            (330.0, 30.0, true, "5° 30′ E"),
-            (-0.0, 60.0, true, "0°"),
-            (-10_800.0, 600.0, true, "180°"),
-            (11_100.0, 300.0, true, "175° W"),
-            (2945.0, 5.0, false, "49° 05′ N"),
-            (-2945.2, 0.2, false, "49° 05.2′ S"),
-            (2999.95, 0.05, false, "49° 59.95′ N"),
-        ] {
-            assert_eq!(label(minutes, step, is_meridian), text);
-        }
-    }
-
-    #[test]
-    fn labels_say_the_degrees_of_their_line() {
-        let mut random = fastrand::Rng::with_seed(35);
-        let steps = [600.0, 300.0, 60.0, 30.0, 10.0, 5.0, 1.0, 0.5, 0.2, 0.05, 0.01];
-        for _ in 0..3_000 {
-            let (step, is_meridian) = (steps[random.usize(..steps.len())], random.bool());
-            let most = if is_meridian { 43_200.0 } else { 5_400.0 };
-            let minutes = step * (most / step * (2.0 * random.f64() - 1.0)).round();
-            let text = label(minutes, step, is_meridian);
-            let (number, letter) =
-                text.split_at(text.find(|c: char| c.is_ascii_uppercase()).unwrap_or(text.len()));
-            let mut parts = number.split(['°', '′']).map(|part| part.trim().parse::<f64>().unwrap_or(0.0));
-            let [degrees, rest] = [(); 2].map(|()| parts.next().unwrap_or(0.0));
-            assert!((0.0..60.0).contains(&rest), "{minutes}: {text}");
-            let said = (60.0 * degrees + rest) * if ["W", "S"].contains(&letter) { -1.0 } else { 1.0 };
-            // Meridians meet again after a turn.
-            let off = if is_meridian { (said - minutes) / 21_600.0 } else { (said - minutes) / 1e9 };
-            assert!((off - off.round()).abs() < 1e-9, "{minutes}: {text}");
-            assert!(
-                said.abs() <= 10_800.0 && ["", "E", "W"].contains(&letter) == (is_meridian || said == 0.0),
-                "{text}"
-            );
-        }
-    }
-
-    #[test]
     fn lines_of_a_projection_are_meridians_and_parallels_through_the_area() {
         let corners = [dvec2(-7.0, 47.0), dvec2(0.0, 47.0), dvec2(0.0, 52.0), dvec2(-7.0, 52.0)];
         let extent = GeographicExtent::from_rings(std::iter::once(&corners[..])).unwrap();
         let projection = ProjectionChoice::Automatic.projection(&extent).unwrap();
         let plane = EarthPlane::Projected(projection);
         let area = Rect::new(dvec2(-238_000.0, 5_219_000.0), dvec2(238_000.0, 5_763_000.0));
-        let lines = graticule(plane, area);
+        let lines = graticule(plane, area, DegreeStyle::Minutes);
         let labels: Vec<&str> = lines.iter().map(|line| line.label.as_str()).collect();
         assert_eq!(
             labels,

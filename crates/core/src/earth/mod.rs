@@ -8,6 +8,7 @@
 mod choice;
 mod cone;
 mod coordinates;
+mod degrees;
 mod edge_lengths;
 mod ellipsoid;
 mod extent;
@@ -37,6 +38,7 @@ use transverse::Transverse;
 
 pub use choice::{ProjectionChoice, ProjectionError};
 pub use coordinates::{Coordinates, CoordinatesTextError};
+pub use degrees::{DegreeStyle, GeographicAxis, geographic_from_text};
 pub use edge_lengths::{EdgeLengths, LEVELS};
 pub use extent::GeographicExtent;
 pub use geographic::GeographicSystem;

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{Projection, wrapped};
+use crate::geometry::Rect;
 use crate::text::LengthUnit;
 
 /// A plane whose points have longitudes and latitudes.
@@ -38,6 +39,22 @@ impl EarthPlane {
         match self {
             Self::Degrees => DVec2::new(wrapped(at.x), at.y),
             Self::Projected(projection) => projection.geographic_from_plane(at),
+        }
+    }
+
+    /// Returns the point of a longitude and latitude, in degrees: in degrees that which lies in `bounds`, if
+    /// one of the whole turns around does.
+    pub fn point_of(self, geographic: DVec2, bounds: Rect) -> DVec2 {
+        match self {
+            Self::Degrees => {
+                let turned = |turn: f64| geographic + DVec2::new(turn, 0.0);
+                [0.0, 360.0, -360.0]
+                    .map(turned)
+                    .into_iter()
+                    .find(|at| bounds.contains(*at))
+                    .unwrap_or(geographic)
+            }
+            Self::Projected(projection) => projection.plane_from_geographic(geographic),
         }
     }
 }

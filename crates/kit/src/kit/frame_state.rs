@@ -3,6 +3,7 @@
 use std::any::{Any, TypeId};
 
 use super::{Keymap, LayerKinds};
+use crate::kit::coordinates::{PlaceText, geographic_plane, place_text};
 use crate::kit::project::ProjectFile;
 use crate::kit::readout::Readout;
 use crate::kit::session::Session;
@@ -10,6 +11,7 @@ use crate::kit::threads::Threads;
 use crate::kit::tools::Tools;
 use crate::kit::view::View;
 use glam::DVec2;
+use meshbrush_core::earth::{DegreeStyle, EarthPlane};
 use meshbrush_mesh::text::LengthUnit;
 
 /// The states of features, by their types.
@@ -57,6 +59,17 @@ impl<'a> FrameState<'a> {
     /// Returns the unit of the document's lengths and coordinates.
     pub fn unit(&self) -> LengthUnit {
         self.session.document().settings().unit
+    }
+
+    /// See [`geographic_plane`].
+    pub fn geographic_plane(&self) -> Option<(EarthPlane, DegreeStyle)> {
+        geographic_plane(self.session.document().settings(), self.view.coordinates)
+    }
+
+    /// Returns a place, in world units, in the coordinates that the person wants, with the digits that a
+    /// pixel can tell apart.
+    pub fn place_text(&self, at: DVec2) -> PlaceText {
+        place_text(self.session.document().settings(), self.view.coordinates, at, self.view.world_per_px())
     }
 
     /// Returns the place that is worked at, in world units: that of the pointer, or else the middle of the

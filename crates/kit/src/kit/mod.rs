@@ -15,6 +15,7 @@ pub mod brake;
 pub mod busy;
 pub mod canvas_aids;
 pub mod clock;
+pub mod coordinates;
 pub mod command;
 pub mod cuts;
 pub mod derivation;

@@ -41,7 +41,11 @@ impl Feature for Inspector {
             InspectCommand::CopyReadout => copy_readout(ctx),
             InspectCommand::GoTo(point) => {
                 ctx.session.query(Some(point));
-                ctx.send(Command::from(ViewCommand::LookAt(point)));
+                self.arrived_at = Some(point);
+                match ctx.session.queried_triangle() {
+                    Some(id) => ctx.view.go_to(point, ctx.session.view().diameter(id), TRIANGLE_PX),
+                    None => ctx.send(Command::from(ViewCommand::LookAt(point))),
+                }
             }
             InspectCommand::GoToTriangle(id) => {
                 let middle = middle_of(id, ctx);

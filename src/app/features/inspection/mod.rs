@@ -18,6 +18,8 @@ mod walks;
 mod why;
 
 pub use command::{ExploreCommand, InspectCommand};
+use glam::DVec2;
+
 use explore::{Explore, TreeStep};
 use inspector::{DETAILS, INSPECTOR};
 use options::QUERY_OPTIONS;
@@ -34,4 +36,6 @@ pub struct Inspector {
     explore: Explore,
     /// How long the walks of point location are.
     walks: WalkMeter,
+    /// The point that was gone to by its coordinates: nobody asked for the walk to it.
+    arrived_at: Option<DVec2>,
 }

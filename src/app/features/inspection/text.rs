@@ -1,6 +1,7 @@
 //! The inspector's values for a queried triangle, as text, for the panel and for copying.
 
-use meshbrush_core::layers::{Decision, DiameterLimit, Layer, LayerId};
+use meshbrush_core::layers::{Decision, DepthSurface, DiameterLimit, Layer, LayerId};
+use meshbrush_kit::kit::coordinates::{CoordinateStyle, place_text};
 use meshbrush_kit::kit::readout::{Quantity, Readout, TriangleReadout};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::View;
@@ -97,6 +98,7 @@ impl<'a> Inspection<'a> {
             self.point_row("Point", self.readout.point.to_array()),
         ];
         rows.extend(self.geographic_row());
+        rows.extend(self.depth_row());
         rows.extend(where_on(self.readout.location).map(|on| InspectorRow::text("Lies", on)));
         rows.push(InspectorRow::new("ζ₁ ζ₂ ζ₃", format!("{a} {b} {c}"), exact_list(&triangle.zeta)));
         rows
@@ -197,10 +199,24 @@ impl<'a> Inspection<'a> {
 
     /// Returns longitude and latitude of the point, where the domain lies on the Earth.
     fn geographic_row(&self) -> Option<InspectorRow> {
-        let projection = self.session.document().settings().domain.projection?;
-        let at = projection.geographic_from_plane(self.readout.point).to_array();
-        let shown = at.map(|degrees| LengthUnit::Degree.after(&format::fixed(degrees, 5))).join(" ");
+        let settings = self.session.document().settings();
+        let at = settings.domain.projection?.geographic_from_plane(self.readout.point).to_array();
+        let style = match self.view.coordinates {
+            CoordinateStyle::Plane => CoordinateStyle::default(),
+            style => style,
+        };
+        let shown = place_text(settings, style, self.readout.point, 1.0).values.join(" ");
         Some(InspectorRow::new("Longitude, latitude", shown, exact_list(&at)).in_unit(LengthUnit::Degree))
+    }
+
+    /// Returns the depth of the water at the point, in documents with depths.
+    fn depth_row(&self) -> Option<InspectorRow> {
+        let depths = DepthSurface::of(&self.session.document().settings().layers)?;
+        let Some(depth) = depths.depth_at(self.readout.point) else {
+            return Some(InspectorRow::text("Depth", "no value here"));
+        };
+        let shown = LengthUnit::Metre.after(&format::significant(depth, 4));
+        Some(InspectorRow::new("Depth", shown, format::exact(depth)).in_unit(LengthUnit::Metre))
     }
 
     fn point_row(&self, label: &str, point: [f64; 2]) -> InspectorRow {

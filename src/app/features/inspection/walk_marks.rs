@@ -3,6 +3,7 @@
 use eframe::egui::{Color32, Pos2, Rect, Stroke, vec2};
 use glam::DVec2;
 
+use super::Inspector;
 use meshbrush_kit::kit::marks::{paint_line, paint_number};
 use meshbrush_kit::kit::{FrameState, OverMesh};
 use meshbrush_ui::theme::NUMBER_DISC;
@@ -18,7 +19,9 @@ const SMALLEST_DISTANCE_OF_NUMBERS: f32 = 18.0;
 
 /// Draws both, where they are shown.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
-    if let Some(readout) = state.readout.filter(|_| state.view.aids.walk) {
+    let arrived_at = state.feature::<Inspector>().arrived_at;
+    let is_walked = |point| state.view.aids.walk && arrived_at != Some(point);
+    if let Some(readout) = state.readout.filter(|readout| is_walked(readout.point)) {
         paint_walk(state, over, readout.point);
     }
     paint_trail(over, state.session.trail());

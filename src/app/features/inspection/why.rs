@@ -149,10 +149,7 @@ fn node_values(
     node: &NodeFacts,
 ) -> Vec<(&'static str, String, &'static str)> {
     let world = |at| mesh.lattice().world_from_lattice(at);
-    let place = |at: DVec2| {
-        let step = state.view.world_per_px();
-        at.to_array().map(|value| format::coordinate(value, step, state.unit())).join(" ")
-    };
+    let place = |at: DVec2| state.place_text(at).values.join(" ");
     let at = world(node.at);
     let paint = state.session.document().paint();
     let target = state.session.follower().field().target_at(paint, at);

@@ -17,7 +17,7 @@ impl Feature for LayerEditor {
         files: &[&OPEN_RISK],
         roles: &ROLES,
         panels: &[&LAYERS, &TRANSFER, &GRADATION],
-        layer_kinds: &KINDS,
+        layer_kinds: KINDS,
         marks_below: marks::paint,
         entries: entries::entries,
         ..Row::EMPTY

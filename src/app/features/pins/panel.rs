@@ -2,6 +2,8 @@
 
 use eframe::egui::{Align2, FontId, Pos2, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
+use glam::DVec2;
+
 use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use super::table::PinRow;
@@ -14,8 +16,9 @@ use meshbrush_ui::widgets::{Section, format};
 /// All pins with their triangles and values; how to pin a point while there are none.
 pub static PINS: Panel = Panel { name: "pins", tab: Tab::Inspect, place: 1, show };
 
-const HEADINGS: [&str; COLUMNS] =
-    ["Pin", "x", "y", "Triangle", "Level", "ζ₁", "ζ₂", "ζ₃", "Interpolated", "True", "Difference"];
+/// The headings after those of the number and of the place.
+const HEADINGS: [&str; COLUMNS - 3] =
+    ["Triangle", "Level", "ζ₁", "ζ₂", "ζ₃", "Interpolated", "True", "Difference"];
 const COLUMNS: usize = 11;
 /// Height of a row, in points.
 const ROW: f32 = 18.0;
@@ -51,7 +54,7 @@ fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     area.show_rows(ui, ROW, pins.len() + 1, |ui, range| {
         let rows: Vec<(Option<usize>, [String; COLUMNS])> = range
             .map(|line| match line.checked_sub(1) {
-                None => (None, HEADINGS.map(str::to_owned)),
+                None => (None, headings(state)),
                 Some(number) => (Some(number), cells(state, number)),
             })
             .collect();
@@ -85,12 +88,16 @@ fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(6.0);
 }
 
+fn headings(state: &FrameState<'_>) -> [String; COLUMNS] {
+    let [x, y] = state.place_text(DVec2::ZERO).names;
+    let mut all = ["Pin", x, y].into_iter().chain(HEADINGS).map(str::to_owned);
+    std::array::from_fn(|_| all.next().unwrap_or_default())
+}
+
 /// Returns the cells of a pin in the table.
 fn cells(state: &FrameState<'_>, number: usize) -> [String; COLUMNS] {
     let at = state.session.document().settings().pins[number];
-    let step = state.view.world_per_px();
-    let decimals = format::decimals_for(step);
-    let [x, y] = at.to_array().map(|value| format::fixed(value, decimals));
+    let [x, y] = state.place_text(at).values;
     let first = [(number + 1).to_string(), x, y];
     let read =
         state.feature::<Pins>().reader.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
@@ -123,7 +130,7 @@ fn cells(state: &FrameState<'_>, number: usize) -> [String; COLUMNS] {
 fn widths<'a>(ui: &Ui, rows: impl Iterator<Item = &'a [String; COLUMNS]>) -> [f32; COLUMNS] {
     let color = tokens(ui).label;
     let width = |text: &str, font: FontId| ui.painter().layout_no_wrap(text.to_owned(), font, color).size().x;
-    let mut widths = HEADINGS.map(|heading| width(heading, font::caption()));
+    let mut widths = [0.0_f32; COLUMNS];
     for cells in rows {
         for (widest, cell) in widths.iter_mut().zip(cells) {
             *widest = widest.max(width(cell, font::small_value()).ceil());

@@ -45,17 +45,20 @@ impl<L> SavedSettings<L> {
     /// # Errors
     /// Fails when a value cannot be used.
     pub fn override_settings(&self, settings: Settings) -> Result<Settings, KeyFault> {
-        let Transfer { h_min, h_risk, h_max, shape } = settings.transfer;
+        // Taken apart without `..`: a key that is read and then forgotten would be lost in silence.
+        let SavedMesh { spacing, rule, max_triangles, max_level, max_memory: _ } = self.mesh;
+        let SavedLimits { h_min, h_risk, h_max, shape, gradation } = self.limits;
+        let own = settings.transfer;
         // As in a recipe: the curve ends at the smallest diameter, unless another end is given.
-        let own_risk = (h_risk != h_min).then_some(h_risk);
-        let h_min = self.limits.h_min.map_or(h_min, Into::into);
+        let own_risk = (own.h_risk != own.h_min).then_some(own.h_risk);
+        let h_min = h_min.map_or(own.h_min, Into::into);
         let transfer = Transfer {
             h_min,
-            h_risk: self.limits.h_risk.map(Into::into).or(own_risk).unwrap_or(h_min),
-            h_max: self.limits.h_max.map_or(h_max, Into::into),
-            shape: self.limits.shape.unwrap_or(shape),
+            h_risk: h_risk.map(Into::into).or(own_risk).unwrap_or(h_min),
+            h_max: h_max.map_or(own.h_max, Into::into),
+            shape: shape.unwrap_or(own.shape),
         };
-        let spacing = self.mesh.spacing.map_or(settings.spacing, Into::into);
+        let spacing = spacing.map_or(settings.spacing, Into::into);
         let diameter = self.domain.boundary_diameter.map(Into::into).or(settings.boundary.diameter());
         let diameter = diameter.unwrap_or_else(|| {
             BoundaryTreatment::default_diameter(settings.domain.longest_on_earth(spacing))
@@ -66,11 +69,11 @@ impl<L> SavedSettings<L> {
             transfer,
             boundary: treatment.with_diameter(diameter),
             cleaning: self.cleaning(settings.cleaning),
-            gradation: self.limits.gradation.or(settings.gradation),
-            rule: self.mesh.rule.map_or(settings.rule, Into::into),
-            max_triangles: self.mesh.max_triangles.unwrap_or(settings.max_triangles),
+            gradation: gradation.or(settings.gradation),
+            rule: rule.map_or(settings.rule, Into::into),
+            max_triangles: max_triangles.unwrap_or(settings.max_triangles),
             max_memory: self.mesh.memory()?.unwrap_or(settings.max_memory),
-            max_level: self.mesh.max_level.or(settings.max_level),
+            max_level: max_level.or(settings.max_level),
             ..settings
         })
     }

@@ -4,6 +4,7 @@ use egui::ThemePreference;
 use glam::DVec2;
 
 use super::CommandSet;
+use crate::kit::coordinates::CoordinateStyle;
 use crate::kit::view::{CanvasAid, FieldOverlay};
 use crate::kit::{DockPlace, Tab};
 use meshbrush_mesh::geometry::Rect;
@@ -36,6 +37,8 @@ pub enum ViewCommand {
     SetOverlay(FieldOverlay),
     /// Chooses the colours of the levels.
     Colormap(Colormap),
+    /// Chooses the coordinates that places are written in.
+    Coordinates(CoordinateStyle),
     /// Shows one level alone, or all, while the pointer is on the legend.
     ShowLevel(Option<u32>),
     /// Hides or shows a level on the canvas.

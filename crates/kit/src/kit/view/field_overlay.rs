@@ -29,7 +29,7 @@ pub enum FieldOverlay {
 
 impl FieldOverlay {
     /// All of them, in the order of lists.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: &[Self] = &[
         Self::None,
         Self::Risk,
         Self::Target,

@@ -12,6 +12,7 @@ pub use space::Space;
 
 use super::Tab;
 use super::command::ViewCommand;
+use super::coordinates::CoordinateStyle;
 use super::dock::Dock;
 use super::presentation::Presentation;
 use super::readout::Quantity;
@@ -46,6 +47,8 @@ pub struct View {
     pub overlay: FieldOverlay,
     /// The aids to orientation that are shown.
     pub aids: CanvasAids,
+    /// The coordinates that places are written in.
+    pub coordinates: CoordinateStyle,
     /// Whether the panels are shown.
     pub panels: bool,
     /// Whether menus, status and panels surround the canvas: not in a page that embeds it.
@@ -83,6 +86,7 @@ impl Default for View {
             edges: true,
             overlay: FieldOverlay::None,
             aids: CanvasAids::default(),
+            coordinates: CoordinateStyle::default(),
             panels: true,
             surrounds: true,
             strip: true,
@@ -149,6 +153,7 @@ impl View {
             ground: self.ground,
             edges: self.edges,
             aids: CanvasAids { picture_corners: false, ..self.aids },
+            coordinates: self.coordinates,
             panels: self.panels,
             surrounds: self.surrounds,
             strip: self.strip,
@@ -181,6 +186,7 @@ impl View {
             ViewCommand::ToggleAid(aid) => self.aids.toggle(aid),
             ViewCommand::SetOverlay(overlay) => self.overlay = overlay,
             ViewCommand::Colormap(map) => self.colormap = map,
+            ViewCommand::Coordinates(style) => self.coordinates = style,
             ViewCommand::ShowLevel(level) => self.lone_level = level,
             ViewCommand::ToggleLevel(level) => self.hidden_levels ^= bit_of(level),
             ViewCommand::IsolateLevel(level) if self.hidden_levels == !bit_of(level) => {

@@ -16,7 +16,7 @@ use meshbrush_core::layers::{LayerKind, Quantity};
 use meshbrush_kit::kit::{LayerKindRow, LayerKinds};
 
 /// The kinds of layers of this feature.
-pub static KINDS: [&LayerKindRow; 9] = [
+pub static KINDS: &[&LayerKindRow] = &[
     &paint::PAINT,
     &formula::FORMULA,
     &raster::RASTER,
@@ -29,8 +29,11 @@ pub static KINDS: [&LayerKindRow; 9] = [
 ];
 
 /// Returns the kind of a layer.
+///
+/// # Panics
+/// Panics for a kind that no feature has a row of.
 pub fn kind_of(all: LayerKinds, kind: &LayerKind) -> &'static LayerKindRow {
-    all.iter().find(|row| (row.is_of)(kind)).copied().unwrap_or(&paint::PAINT)
+    all.iter().find(|row| (row.is_of)(kind)).expect("each kind of layer has a row")
 }
 
 /// The name of a quantity.

@@ -9,9 +9,9 @@ use glam::dvec2;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::layers::LayerEditor;
 use crate::app::tests::{
-    CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, click_button, document, entries, key,
-    level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles, type_into,
-    value_of, wait_until, window, window_of, window_with,
+    CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, choose_in_palette, click_button, document,
+    entries, key, level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles,
+    type_into, value_of, wait_until, window, window_of, window_with,
 };
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::Domain;
@@ -259,7 +259,7 @@ fn the_keyboard_selects_moves_duplicates_and_deletes() {
 #[test]
 fn the_menu_has_every_command_of_the_stack() {
     let mut window = window_of(TALL);
-    crate::app::tests::choose_in_palette(&mut window, "Combine: Floor");
+    choose_in_palette(&mut window, "Combine: Floor");
     assert_eq!(active(&window).combine, Combine::Floor);
     choose(&mut window, "Layer", "Layer is locked");
     assert!(active(&window).locked);
@@ -439,7 +439,7 @@ fn status_bar_and_inspector_name_the_layer_that_decides() {
 #[test]
 fn the_overlay_of_deciding_layers_has_a_legend_and_a_dot_per_row() {
     let mut window = window_of(TALL);
-    choose(&mut window, "View", "Overlay deciding layer");
+    choose_in_palette(&mut window, "Overlay deciding layer");
     assert_eq!(window.state().view().overlay, FieldOverlay::Layer);
     assert!(window.query_by_label("Legend: layers Painted risk, Painted diameter, Base").is_some());
     click_on(&mut window, Role::CheckBox, "Painted diameter visible");
