@@ -51,7 +51,7 @@ impl Canvas {
             if state.view.aids.scale_bar && places.is_empty() {
                 coordinates::show_scale_bar(ui, inner, &camera, state);
             }
-            legend::show(ui, inner, state);
+            places.extend(legend::show(ui, inner, state, commands));
             places.extend(show_corners(ui, response.rect, state, &camera, commands));
             places.extend(show_limit_offer(ui, response.rect, state, &camera, commands));
             places.extend(way_back::show(ui, inner, state, &camera, commands));

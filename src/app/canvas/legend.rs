@@ -2,10 +2,12 @@
 
 use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
+use super::level_legend;
 use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
 use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
 use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::view::{FieldOverlay, deepest_level};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_study::relief::isobath_interval;
@@ -16,16 +18,17 @@ use meshbrush_ui::widgets::{elided_text, format, paint_floating};
 const WIDTH: f32 = 124.0;
 const SWATCH: f32 = 18.0;
 /// Heights of the title and of a row with text, in points.
-const TITLE: f32 = 20.0;
-const ROW: f32 = 14.0;
+pub(super) const TITLE: f32 = 20.0;
+pub(super) const ROW: f32 = 14.0;
 const LAYER_ROW: f32 = 18.0;
-const MARGIN: Vec2 = vec2(10.0, 7.0);
+pub(super) const MARGIN: Vec2 = vec2(10.0, 7.0);
 
-/// Shows the legend of the overlay or of the contour lines in the upper right corner of `inner`, and that of
-/// the paths below it. They take no clicks.
-pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
+/// Shows the legend of the overlay, of the contour lines or of the levels in the upper right corner of
+/// `inner`, and that of the paths below it. Returns the place that takes clicks, which is that of the levels.
+pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Command>) -> Option<Rect> {
     let inner = inner.with_min_y(inner.top() + 12.0);
     let palette = &palette_of(state);
+    let mut takes_clicks = None;
     let content = match state.view.overlay {
         FieldOverlay::None if state.view.space.is_on => None,
         _ if state.view.space.is_on => Some(plan_only(ui, inner)),
@@ -40,10 +43,14 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Surface => Some(surface_legend(ui, inner, state, palette)),
         FieldOverlay::SurfaceError => Some(surface_error_legend(ui, inner, state, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
+        FieldOverlay::None if state.view.aids.levels => {
+            level_legend::show(ui, inner, state, commands).inspect(|place| takes_clicks = Some(*place))
+        }
         FieldOverlay::None => None,
     };
     let top = content.map_or(inner.top(), |content| content.bottom() + MARGIN.y + 8.0);
     path_legend(ui, inner.with_min_y(top), state);
+    takes_clicks
 }
 
 /// Returns the colours of overlays as they are drawn.
@@ -51,9 +58,9 @@ fn palette_of(state: &FrameState<'_>) -> OverlayPalette {
     OverlayPalette::new(state.view.ground, state.view.level_colors(state.session.follower().settings()))
 }
 
-/// Draws the box of a legend with its title, and returns the place for its content.
-fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
-    let size = vec2(WIDTH, TITLE + height) + 2.0 * MARGIN;
+/// Draws the box of a legend with its title, and returns the place for its content of this size, in points.
+pub(super) fn boxed(ui: &Ui, inner: Rect, content: Vec2, title: &str, spoken: &str) -> Rect {
+    let size = content + vec2(0.0, TITLE) + 2.0 * MARGIN;
     let place = Rect::from_min_size(inner.right_top() - vec2(size.x, 0.0), size);
     let response = ui.interact(place, ui.scope_id().with(("legend", title)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken));
@@ -65,7 +72,7 @@ fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
 
 /// Returns risk from 0 to 1, a cell for each sixteenth.
 fn risk_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
-    let place = boxed(ui, inner, 30.0, "Risk", "Legend: risk 0 to 1");
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0), "Risk", "Legend: risk 0 to 1");
     let colors = (0..=16_u8).map(|i| palette.risk((f32::from(i) / 16.0 * 255.0) as u8));
     scale(ui, place, colors, ["0", "0.5", "1"].map(str::to_owned));
     place
@@ -73,7 +80,7 @@ fn risk_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
 
 /// Returns how often the mesh could be halved less.
 fn slack_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
-    let place = boxed(ui, inner, 30.0, "Slack h̄ / h", "Legend: slack 1 to 16");
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0), "Slack h̄ / h", "Legend: slack 1 to 16");
     let steps = 16u16;
     let color = |step| palette.slack((f32::from(step) + 0.5) / f32::from(steps) * MOST_SLACK);
     scale(ui, place, (0..steps).map(color), ["1", "4", "≥ 16"].map(str::to_owned));
@@ -82,7 +89,7 @@ fn slack_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
 
 /// Shows the legend of ages, from the last edit to old triangles, with a cell for each edit.
 fn age_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
-    let place = boxed(ui, inner, 30.0, "Edits ago", "Legend: edits ago, 0 to 10");
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0), "Edits ago", "Legend: edits ago, 0 to 10");
     let colors = (0..OLD_AGE + 1).map(|age| palette.age(Some(age)));
     scale(ui, place, colors, ["0".into(), (OLD_AGE / 2).to_string(), format!("≥ {OLD_AGE}")]);
     place
@@ -96,7 +103,7 @@ fn depth_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayP
     let deepest = surface.deepest();
     let metres = |depth: f64| LengthUnit::Metre.after(&format::significant(depth, 3));
     let spoken = format!("Legend: depth 0 to {}", metres(deepest));
-    let place = boxed(ui, inner, 30.0 + ROW, "Depth", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0 + ROW), "Depth", &spoken);
     let steps = 16_u8;
     let share = |step: u8| (f32::from(step) / f32::from(steps)).powi(2);
     scale(
@@ -116,7 +123,7 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
     }
     let percent = format::digits(f64::from(100.0 * MOST_ERROR), 3);
     let spoken = format!("Legend: depth error −{percent} % to {percent} %");
-    let place = boxed(ui, inner, 30.0 + ROW, "Depth error", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0 + ROW), "Depth error", &spoken);
     let steps = 8_i8;
     let color = |step: i8| palette.depth_error(MOST_ERROR * f32::from(step) / f32::from(steps));
     let ends = [format!("−{percent} %"), "0".into(), format!("{percent} %")];
@@ -133,7 +140,7 @@ fn surface_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Overla
     };
     let ends = [lowest, lowest.midpoint(highest), highest].map(|height| format::significant(height, 3));
     let spoken = format!("Legend: surface {} to {}", ends[0], ends[2]);
-    let place = boxed(ui, inner, 30.0 + ROW, "Surface", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0 + ROW), "Surface", &spoken);
     let steps = 16_u8;
     let color = |step: u8| palette.height(f32::from(step) / f32::from(steps));
     scale(ui, place, (0..=steps).map(color), ends);
@@ -160,7 +167,7 @@ fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &
         _ => ["−100 %", "0", "100 %"].map(str::to_owned),
     };
     let spoken = format!("Legend: surface error {} to {}", ends[0], ends[2]);
-    let place = boxed(ui, inner, 30.0 + ROW, "Surface error", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, 30.0 + ROW), "Surface error", &spoken);
     let steps = 8_i8;
     let color = |step: i8| palette.surface_error(f32::from(step) / f32::from(steps));
     scale(ui, place, (-steps..=steps).map(color), ends);
@@ -176,14 +183,14 @@ fn below_scale(ui: &Ui, place: Rect, text: String) {
 
 /// Says that the view in space has no overlay.
 fn plan_only(ui: &Ui, inner: Rect) -> Rect {
-    let place = boxed(ui, inner, ROW, "Overlay", "Legend: overlays are shown in the plan");
+    let place = boxed(ui, inner, vec2(WIDTH, ROW), "Overlay", "Legend: overlays are shown in the plan");
     ui.painter().text(place.min, Align2::LEFT_TOP, "shown in the plan", font::axis(), tokens(ui).label);
     place
 }
 
 /// Says which layer is missing.
 fn no_layer(ui: &Ui, inner: Rect, title: &str, text: &str) -> Rect {
-    let place = boxed(ui, inner, ROW, title, &format!("Legend: {text}"));
+    let place = boxed(ui, inner, vec2(WIDTH, ROW), title, &format!("Legend: {text}"));
     ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
     place
 }
@@ -211,7 +218,7 @@ fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = Opaque>, te
 /// Returns the colour of triangles that only compatibility asked for.
 fn forced_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
     let spoken = "Legend: triangles that only compatibility asked for";
-    let place = boxed(ui, inner, LAYER_ROW, "Cause", spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, LAYER_ROW), "Cause", spoken);
     let swatch = Rect::from_min_size(place.min + vec2(0.0, 3.0), vec2(SWATCH, LAYER_ROW - 6.0));
     let [r, g, b, _] = palette.forced(true);
     ui.painter().rect_filled(swatch, 2.0, Color32::from_rgb(r, g, b));
@@ -228,7 +235,7 @@ fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayP
     let shown = visible.len().min(rows);
     let names: Vec<&str> = visible.iter().map(|layer| layer.name.as_str()).collect();
     let spoken = format!("Legend: layers {}", names.join(", "));
-    let place = boxed(ui, inner, LAYER_ROW * shown as f32, "Deciding layer", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, LAYER_ROW * shown as f32), "Deciding layer", &spoken);
     let t = tokens(ui);
     for (row, layer) in visible.iter().take(shown).enumerate() {
         let top = place.top() + LAYER_ROW * row as f32;
@@ -248,7 +255,7 @@ fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     let room = (inner.height() * 0.7 - TITLE - 2.0 * MARGIN.y).max(ROW);
     let row = (room / levels as f32).min(ROW);
     let spoken = format!("Legend: diameters of levels 0 to {}", levels - 1);
-    let place = boxed(ui, inner, row * levels as f32, "h̄ by level", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, row * levels as f32), "h̄ by level", &spoken);
     // Where rows are too low for text, only some have one.
     let every = (ROW / row).ceil() as u32;
     let (t, colors) = (tokens(ui), state.view.level_colors(settings));
@@ -290,7 +297,7 @@ fn path_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
     }
     let texts: Vec<&str> = rows.iter().map(|(_, text, _)| text.as_str()).collect();
     let spoken = format!("Legend: paths {}", texts.join(", "));
-    let place = boxed(ui, inner, LAYER_ROW * rows.len() as f32, "Paths", &spoken);
+    let place = boxed(ui, inner, vec2(WIDTH, LAYER_ROW * rows.len() as f32), "Paths", &spoken);
     let t = tokens(ui);
     for (row, (color, text, height)) in rows.iter().enumerate() {
         let top = place.top() + LAYER_ROW * row as f32;

@@ -6,6 +6,7 @@ mod floats;
 mod gpu;
 mod graticule;
 mod legend;
+mod level_legend;
 mod menu;
 mod navigation;
 mod overlay;

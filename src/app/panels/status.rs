@@ -60,8 +60,8 @@ fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     [left, right]
 }
 
-/// Returns the position of the pointer, h̄ and the level of the triangle there, and what decides h̄: a layer or
-/// a limit.
+/// Returns the position of the pointer, h̄ and the level of the triangle there, and what decides h̄: a layer
+/// or a limit.
 fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 5] {
     let unit = state.unit();
     let chars = 8 + unit.after("").chars().count();

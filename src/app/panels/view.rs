@@ -33,6 +33,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ("Coordinates", CanvasAid::Coordinates, view.aids.coordinates),
         ("Graticule", CanvasAid::Graticule, view.aids.graticule),
         ("Scale bar", CanvasAid::ScaleBar, view.aids.scale_bar),
+        ("Levels", CanvasAid::Levels, view.aids.levels),
         ("Contours of h̄", CanvasAid::Contours, view.aids.contours),
     ] {
         if toggle_row(ui, name, &mut shown).changed() {

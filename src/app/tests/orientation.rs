@@ -283,6 +283,8 @@ fn legend(window: &Window) -> Option<String> {
 #[test]
 fn an_overlay_and_contour_lines_have_a_legend() {
     let mut window = window();
+    assert_eq!(legend(&window).as_deref(), Some("levels of the mesh"));
+    choose_in_palette(&mut window, "Legend of the levels");
     assert_eq!(legend(&window), None);
     key(&mut window, Modifiers::NONE, Key::O);
     assert_eq!(legend(&window).as_deref(), Some("risk 0 to 1"));
@@ -292,6 +294,29 @@ fn an_overlay_and_contour_lines_have_a_legend() {
     assert_eq!(legend(&window), None);
     choose(&mut window, "View", "Contour lines of h̄");
     assert_eq!(legend(&window).as_deref(), Some("diameters of levels 0 to 10"));
+}
+
+#[test]
+fn a_click_in_the_legend_on_the_canvas_shows_a_level_alone_and_the_pointer_lights_it() {
+    let mut window = window();
+    let counts = window.state().session().level_counts();
+    let levels: Vec<usize> = (0..counts.len()).filter(|&level| counts[level] > 0).collect();
+    let row = |window: &Window, level: usize| {
+        window.get_by_role_and_label(Role::Button, &format!("Show level {level} alone")).rect().center()
+    };
+    let level = levels[levels.len() / 2];
+    let at = row(&window, level);
+    window.event(Event::PointerMoved(at));
+    window.run();
+    assert_eq!(window.state().view().lone_level, Some(level as u32));
+    super::press_at(&mut window, at, eframe::egui::PointerButton::Primary, Modifiers::NONE);
+    super::release_at(&mut window, at, eframe::egui::PointerButton::Primary);
+    assert_eq!(window.state().view().hidden_levels, !(1 << level));
+    super::click_button(&mut window, &format!("Show level {level} alone"));
+    assert_eq!(window.state().view().hidden_levels, 0, "a second click shows all again");
+    window.event(Event::PointerMoved(super::canvas(&window).center()));
+    window.run();
+    assert_eq!(window.state().view().lone_level, None);
 }
 
 #[test]

@@ -9,6 +9,8 @@ pub enum CanvasAid {
     Graticule,
     /// The scale bar.
     ScaleBar,
+    /// The legend of the levels.
+    Levels,
     /// Contour lines of h̄.
     Contours,
     /// The walk of point location to the queried point.
@@ -28,6 +30,8 @@ pub struct CanvasAids {
     pub graticule: bool,
     /// The scale bar.
     pub scale_bar: bool,
+    /// The legend of the levels.
+    pub levels: bool,
     /// Contour lines of h̄ where one level ends and the next begins.
     pub contours: bool,
     /// The walk of point location to the queried point.
@@ -44,6 +48,7 @@ impl Default for CanvasAids {
             coordinates: true,
             graticule: false,
             scale_bar: true,
+            levels: true,
             contours: false,
             walk: true,
             picture_corners: false,
@@ -59,6 +64,7 @@ impl CanvasAids {
             CanvasAid::Coordinates => &mut self.coordinates,
             CanvasAid::Graticule => &mut self.graticule,
             CanvasAid::ScaleBar => &mut self.scale_bar,
+            CanvasAid::Levels => &mut self.levels,
             CanvasAid::Contours => &mut self.contours,
             CanvasAid::Walk => &mut self.walk,
             CanvasAid::PictureCorners => &mut self.picture_corners,

@@ -209,6 +209,7 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Edges", "Draws the edges of the triangles[; {edges} switches]."),
     ("Coordinates", "Draws the coordinates along two sides of the canvas, in the unit of the document."),
     ("Graticule", "Draws meridians and parallels with their degrees, in documents on the Earth."),
+    ("Levels", "Shows the levels of the mesh in their colours on the canvas, with diameters and counts."),
     ("Scale bar", "Draws a bar whose length on the canvas is written on it, in the unit of the document."),
     (
         "Contours of h̄",

@@ -1,6 +1,6 @@
 //! The legend of the levels.
 
-use eframe::egui::{Color32, Ui};
+use eframe::egui::{Color32, Id, Ui};
 
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_kit::kit::view::deepest_level;
@@ -40,7 +40,11 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         answer
     });
     let answer = section.unwrap_or_default();
-    if answer.hovered != state.view.lone_level {
+    // The legend on the canvas lights levels, too: each takes back only what it has asked for.
+    let id = Id::unique("level that the panel of levels lights");
+    let lit: Option<u32> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    if answer.hovered != lit || (lit.is_some() && lit != state.view.lone_level) {
+        ui.data_mut(|data| data.insert_temp(id, answer.hovered));
         commands.push(Command::from(ViewCommand::ShowLevel(answer.hovered)));
     }
     commands.extend(answer.toggled.map(|level| Command::from(ViewCommand::ToggleLevel(level))));

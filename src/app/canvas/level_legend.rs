@@ -1,0 +1,107 @@
+//! The levels of the mesh on the canvas: colours, diameters and counts. A click shows a level alone.
+
+use eframe::egui::{
+    Align2, Color32, CornerRadius, Id, PointerButton, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::legend::{MARGIN, ROW, TITLE, boxed};
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::format;
+
+/// Width of the rows, in points: beside a square domain there is room for them.
+const WIDTH: f32 = 126.0;
+/// Width of a swatch, in points.
+const SWATCH: f32 = 10.0;
+/// Most of the canvas that the legend takes, as a share of its height.
+const MOST_HEIGHT: f32 = 0.55;
+/// Columns at whose right ends the level and the diameter are, in points from the left.
+const COLUMNS: [f32; 2] = [SWATCH + 17.0, SWATCH + 66.0];
+
+/// Shows the levels that the mesh has in the upper right corner of `inner`. Returns the place of the box;
+/// `None` where there is no room, or no mesh yet.
+pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Command>) -> Option<Rect> {
+    let counts = state.session.level_counts();
+    let levels: Vec<u32> =
+        (0..counts.len()).filter(|&level| counts[level] > 0).map(|level| level as u32).collect();
+    let height = ROW * levels.len() as f32;
+    let has_room = TITLE + height + 2.0 * MARGIN.y <= MOST_HEIGHT * inner.height();
+    if levels.is_empty() || state.session.awaits_mesh() || !has_room {
+        return None;
+    }
+    let title = match state.unit().symbol() {
+        "" => "Level, diameter, count".to_owned(),
+        unit => format!("Level, diameter in {unit}, count"),
+    };
+    let within = boxed(ui, inner, vec2(WIDTH, height), &title, "Legend: levels of the mesh");
+    let colors = state.view.level_colors(state.session.follower().settings());
+    let mut hovered = None;
+    for (row, &level) in levels.iter().enumerate() {
+        let place = Rect::from_min_size(within.min + vec2(0.0, ROW * row as f32), vec2(within.width(), ROW));
+        let response = ui.interact(place, ui.scope_id().with(("level on the canvas", level)), Sense::click());
+        let name = format!("Show level {level} alone");
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        if response.hovered() || response.has_focus() {
+            hovered = Some(level);
+        }
+        if response.clicked() {
+            // Keys belong to the canvas after a click.
+            if response.clicked_by(PointerButton::Primary) {
+                response.surrender_focus();
+            }
+            commands.push(Command::from(ViewCommand::IsolateLevel(level)));
+        }
+        let [r, g, b, _] = colors.of(level as u8);
+        let texts = [
+            level.to_string(),
+            format::digits(state.session.mesh().diameter(level), 4),
+            short_count(counts[level as usize]),
+        ];
+        let is_shown = state.view.hidden_levels >> level.min(63) & 1 == 0;
+        paint_row(ui, place, Color32::from_rgb(r, g, b), texts, [is_shown, hovered == Some(level)]);
+        response.on_hover_text_at_pointer(if is_shown && state.view.hidden_levels != 0 {
+            "A click shows all levels."
+        } else {
+            "A click shows this level alone."
+        });
+    }
+    light(ui, hovered, state, commands);
+    Some(within.expand2(MARGIN))
+}
+
+fn paint_row(ui: &Ui, place: Rect, color: Color32, texts: [String; 3], [is_shown, is_lit]: [bool; 2]) {
+    let t = tokens(ui);
+    if is_lit {
+        ui.painter().rect_filled(place.expand2(vec2(4.0, 0.0)), 3.0, t.field);
+    }
+    let opacity = if is_shown { 1.0 } else { 0.25 };
+    let swatch = Rect::from_min_size(place.min, vec2(SWATCH, place.height()));
+    ui.painter().rect_filled(swatch, CornerRadius::ZERO, color.gamma_multiply(opacity));
+    let ends = [place.left() + COLUMNS[0], place.left() + COLUMNS[1], place.right()];
+    for ((end, text), ink) in ends.into_iter().zip(texts).zip([t.label, t.value, t.label]) {
+        let at = pos2(end, place.center().y);
+        ui.painter().text(at, Align2::RIGHT_CENTER, text, font::axis(), ink.gamma_multiply(opacity));
+    }
+}
+
+/// Returns a count in at most seven letters.
+fn short_count(count: usize) -> String {
+    match count {
+        0..1_000_000 => format::count(count as u64),
+        _ => format!("{:.1} M", count as f64 / 1e6),
+    }
+}
+
+/// Shows the level under the pointer alone, and all again when the pointer leaves the legend: the panel of
+/// levels does the same, so that each takes back only what it has asked for.
+fn light(ui: &Ui, hovered: Option<u32>, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let id = Id::unique("level that the legend on the canvas lights");
+    let lit: Option<u32> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    if hovered != lit {
+        ui.data_mut(|data| data.insert_temp(id, hovered));
+        commands.push(Command::from(ViewCommand::ShowLevel(hovered)));
+    } else if hovered.is_some() && state.view.lone_level != hovered {
+        commands.push(Command::from(ViewCommand::ShowLevel(hovered)));
+    }
+}
