@@ -14,8 +14,8 @@ use meshbrush_ui::widgets::format;
 const WIDTH: f32 = 126.0;
 /// Width of a swatch, in points.
 const SWATCH: f32 = 10.0;
-/// Most of the canvas that the legend takes, as a share of its height.
-const MOST_HEIGHT: f32 = 0.55;
+/// Most of the canvas that the legend takes, as shares of its width and of its height.
+const MOST: [f32; 2] = [0.25, 0.55];
 /// Columns at whose right ends the level and the diameter are, in points from the left.
 const COLUMNS: [f32; 2] = [SWATCH + 17.0, SWATCH + 66.0];
 
@@ -26,7 +26,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Com
     let levels: Vec<u32> =
         (0..counts.len()).filter(|&level| counts[level] > 0).map(|level| level as u32).collect();
     let height = ROW * levels.len() as f32;
-    let has_room = TITLE + height + 2.0 * MARGIN.y <= MOST_HEIGHT * inner.height();
+    let has_room = WIDTH <= MOST[0] * inner.width() && TITLE + height <= MOST[1] * inner.height();
     if levels.is_empty() || state.session.awaits_mesh() || !has_room {
         return None;
     }
@@ -55,7 +55,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Com
         let [r, g, b, _] = colors.of(level as u8);
         let texts = [
             level.to_string(),
-            format::digits(state.session.mesh().diameter(level), 4),
+            format::digits(state.session.mesh().diameter(level), 3),
             short_count(counts[level as usize]),
         ];
         let is_shown = state.view.hidden_levels >> level.min(63) & 1 == 0;
