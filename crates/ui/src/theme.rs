@@ -261,6 +261,8 @@ pub mod font {
 /// cursor's blinking are left as they are, so that tests can switch them off.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
+    // Entries of the menus have these keys: they are listed, and can be changed.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| apply(style, Tokens::of(theme)));
     }

@@ -8,7 +8,7 @@ use meshbrush_render::render::export::ExportFormat;
 const EXPORT_MESH: &str = "Export mesh…";
 
 /// The beginning of a title, and other words for it.
-static SYNONYMS: [(&str, &str); 49] = [
+static SYNONYMS: &[(&str, &str)] = &[
     ("New…", "create empty blank document start page"),
     ("Open…", "load read file import"),
     ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
@@ -49,6 +49,11 @@ static SYNONYMS: [(&str, &str); 49] = [
     ("Overlay", "show colour field"),
     ("Graticule", "meridians parallels longitude latitude degrees grid lines map"),
     ("Scale bar", "ruler length"),
+    ("Places in", "coordinates longitude latitude degrees minutes metres projection"),
+    ("Legend of the levels", "colours colors key diameters counts"),
+    ("Larger interface", "ui scale zoom font size text accessibility"),
+    ("Smaller interface", "ui scale zoom font size text"),
+    ("Interface in its normal size", "ui scale zoom font size text reset"),
     ("Viridis colours", "colormap palette"),
     ("Turbo colours", "colormap palette"),
     ("Larger brush", "radius size width"),

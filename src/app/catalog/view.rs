@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
 use meshbrush_core::earth::{DegreeStyle, EarthPlane};
-use meshbrush_kit::kit::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
+use meshbrush_kit::kit::command::{Command, InterfaceScale, ShellCommand, SpaceCommand, ViewCommand};
 use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::view::{CanvasAid, FieldOverlay};
 use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Tab};
@@ -60,6 +60,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .checked(view.presentation.is_some()),
         CatalogItem::new(View, "Find a command…", Command::from(ShellCommand::Palette)).ctrl(Key::P),
     ]);
+    items.extend(scales());
     items.extend(parts());
     items
 }
@@ -77,6 +78,18 @@ fn coordinates(state: &FrameState<'_>) -> [CatalogItem; 3] {
         let item = CatalogItem::new(Menu::View, title, Command::from(ViewCommand::Coordinates(style)));
         item.enabled(is_on_earth).checked(is_on_earth && style == state.view.coordinates).palette_only()
     })
+}
+
+/// Returns what changes the size of text and controls. No menu has room for it.
+fn scales() -> [CatalogItem; 3] {
+    let item = |title: &str, scale| {
+        CatalogItem::new(Menu::View, title, Command::from(ViewCommand::Scale(scale))).palette_only()
+    };
+    [
+        item("Larger interface", InterfaceScale::Larger).ctrl(Key::Plus).ctrl(Key::Equals),
+        item("Smaller interface", InterfaceScale::Smaller).ctrl(Key::Minus),
+        item("Interface in its normal size", InterfaceScale::Normal).ctrl(Key::Num0),
+    ]
 }
 
 /// Returns the keys that reach everything without a pointer. No menu needs them.

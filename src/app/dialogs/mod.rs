@@ -2,6 +2,7 @@
 //! be, and for a place, About.
 
 mod add_data;
+mod endings;
 mod file;
 mod folders;
 mod go_to;
@@ -17,6 +18,7 @@ use eframe::egui::Context;
 use super::REPORT;
 use super::catalog::{PLACES, catalog, words_of};
 use super::host;
+use endings::LastEndings;
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
@@ -54,6 +56,7 @@ pub struct Dialogs {
     /// Files of data that were read, and are asked about one after the other.
     data: VecDeque<Arc<DataFile>>,
     folders: LastFolders,
+    endings: LastEndings,
     system: SystemDialog,
     /// Whether files are asked for in the desktop's own dialog.
     uses_system: bool,
@@ -117,7 +120,8 @@ impl Dialogs {
         jobs: &Jobs,
     ) {
         let folder = self.folders.of(request, beside);
-        let question = SystemQuestion { request, document, folder, name: name.to_owned() };
+        let name = request.proposed_name(name, self.endings.of(request, document));
+        let question = SystemQuestion { request, document, folder, name };
         if self.uses_system && host::has_dialog(request) {
             self.system.ask(question, jobs);
         } else {
@@ -127,7 +131,7 @@ impl Dialogs {
 
     fn open_file_dialog(&mut self, question: &SystemQuestion, jobs: &Jobs) {
         self.open = None;
-        self.file = Some(FileDialog::new(question.request, &question.folder, &question.name, jobs));
+        self.file = Some(FileDialog::new(question, jobs));
     }
 
     /// Takes the answer of the desktop's own dialog, and returns the command to run. Where there is no such
@@ -153,6 +157,7 @@ impl Dialogs {
         match answer {
             SystemAnswer::Chosen(path) => {
                 self.folders.note(request, path.parent());
+                self.endings.note(request, question.document, &path);
                 if question.document != document && request.act != FileAct::OpenDocument {
                     return Err(request.title);
                 }
@@ -209,6 +214,7 @@ impl Dialogs {
             FileAnswer::CancelWork(id) => commands.push(Command::from(FileCommand::CancelWork(id))),
             FileAnswer::Chosen(path) => {
                 self.folders.note(file.request(), path.parent());
+                self.endings.note(file.request(), file.document(), &path);
                 commands.push((file.request().command)(path));
             }
         }

@@ -295,6 +295,23 @@ fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
     wait_until(&mut window, |window| window.query_by_role_and_label(Role::Button, "coasts").is_some());
 }
 
+/// The next export of a document has the format of the last one; another document begins with the default.
+#[test]
+fn the_last_format_of_a_document_is_proposed_again() {
+    let folder = folder("format");
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    assert!(text(&window).ends_with(".vtu"), "{}", text(&window));
+    go_to(&mut window, &folder.join("sea.14"));
+    wait_until(&mut window, |window| !is_open(window));
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    assert!(text(&window).ends_with(".14"), "{}", text(&window));
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Threats)));
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    assert!(text(&window).ends_with(".vtu"), "{}", text(&window));
+}
+
 #[test]
 fn without_a_name_nothing_can_be_written_and_tab_leaves_a_name_that_was_proposed() {
     let mut window = window();

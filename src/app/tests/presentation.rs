@@ -6,7 +6,7 @@ use eframe::egui::{Context, Key, Modifiers, Pos2, RawInput, Rect, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 
 use super::pictures::{drawn_window, picture};
-use super::{Kept, Window, canvas, key, window, window_of};
+use super::{Kept, Window, canvas, choose_in_palette, key, window, window_of};
 use crate::app::features::ROWS;
 use crate::app::kept::end_last_presentation;
 use meshbrush_kit::kit::all_tools;
@@ -15,6 +15,19 @@ use meshbrush_kit::kit::all_tools;
 fn tool_button(window: &Window, name: &str) -> Option<Rect> {
     let named = window.query_all_by_role_and_label(Role::Button, name).map(|button| button.rect());
     named.filter(|rect| rect.right() < 60.0).min_by(|a, b| a.left().total_cmp(&b.left()))
+}
+
+#[test]
+fn keys_change_the_size_of_the_interface_once_a_press_and_the_palette_finds_them() {
+    let mut window = window();
+    for (pressed, scale) in
+        [(Key::Plus, 1.1), (Key::Equals, 1.2), (Key::Minus, 1.1), (Key::Num0, 1.0), (Key::Minus, 0.9)]
+    {
+        key(&mut window, Modifiers::COMMAND, pressed);
+        assert_eq!(window.ctx.zoom_factor(), scale, "{pressed:?}");
+    }
+    choose_in_palette(&mut window, "ui scale reset");
+    assert_eq!(window.ctx.zoom_factor(), 1.0);
 }
 
 #[test]

@@ -99,9 +99,10 @@ impl FileKind {
         if !self.writes() {
             return String::new();
         }
-        let name: String =
-            document.chars().map(|c| if c == '/' || c == '\\' || c.is_control() { '-' } else { c }).collect();
-        format!("{name}{}.{ending}", self.suffix)
+        // No file of some systems and drives has one of these letters.
+        let is_possible = |c: char| !(c.is_control() || "/\\:*?\"<>|".contains(c));
+        let name: String = document.chars().map(|c| if is_possible(c) { c } else { '-' }).collect();
+        format!("{}{}.{ending}", name.trim_matches([' ', '.']), self.suffix)
     }
 }
 
@@ -114,5 +115,28 @@ impl PartialEq for FileKind {
 impl fmt::Debug for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.title)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::command::ShellCommand;
+
+    #[test]
+    fn a_name_that_is_proposed_is_one_on_every_system() {
+        let kind = FileKind {
+            act: FileAct::Export,
+            suffix: "-mesh",
+            ..FileKind::new(|_| ShellCommand::Palette.into())
+        };
+        for (document, name) in [
+            ("Figure 3: halves", "Figure 3- halves-mesh.vtu"),
+            ("a/b\\c*?\"<d>|", "a-b-c----d---mesh.vtu"),
+            (" .hidden. ", "hidden-mesh.vtu"),
+            ("Île", "Île-mesh.vtu"),
+        ] {
+            assert_eq!(kind.proposed_name(document, "vtu"), name);
+        }
     }
 }

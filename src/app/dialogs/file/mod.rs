@@ -8,11 +8,13 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
+use super::SystemQuestion;
 use crate::app::file_kinds::EXPORT_MESH;
 use listing::{Contents, Listing};
 use meshbrush_io::io::{self, FolderEntry};
 use meshbrush_kit::kit::FileRequest;
 use meshbrush_kit::kit::busy::Busy;
+use meshbrush_kit::kit::document_id::DocumentId;
 use meshbrush_kit::kit::jobs::Jobs;
 use meshbrush_render::render::export::ExportFormat;
 pub use view::{FileAnswer, FileFacts};
@@ -20,6 +22,7 @@ pub use view::{FileAnswer, FileFacts};
 /// The state of the dialog.
 pub struct FileDialog {
     request: FileRequest,
+    document: DocumentId,
     /// The folder that a relative path begins at.
     folder: PathBuf,
     home: Option<PathBuf>,
@@ -38,24 +41,29 @@ pub struct FileDialog {
 }
 
 impl FileDialog {
-    /// Asks for a file in a folder. `name` is the proposed name, without an ending.
-    pub fn new(request: FileRequest, folder: &Path, name: &str, jobs: &Jobs) -> Self {
-        let format = ExportFormat::all().next().expect("there are formats");
-        let mut dialog = Self {
+    /// Asks for a file in a folder, with the name that is proposed.
+    pub fn new(question: &SystemQuestion, jobs: &Jobs) -> Self {
+        let SystemQuestion { request, document, folder, name } = question;
+        let first = || ExportFormat::all().next().expect("there are formats");
+        Self {
             request,
-            folder: folder.to_owned(),
+            document: *document,
+            folder: folder.clone(),
             home: std::env::home_dir(),
-            text: String::new(),
+            text: name.clone(),
             is_typed: false,
             selected: None,
             listing: Listing::of(folder, jobs),
-            format,
+            format: ExportFormat::from_path(Path::new(name)).unwrap_or_else(|_| first()),
             problem: None,
             waits: None,
             selects_text: true,
-        };
-        dialog.text = request.proposed_name(name, dialog.ending());
-        dialog
+        }
+    }
+
+    /// Returns the document that was open when the dialog opened.
+    pub fn document(&self) -> DocumentId {
+        self.document
     }
 
     /// Returns the request that the dialog answers.

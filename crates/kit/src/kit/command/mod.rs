@@ -20,4 +20,4 @@ pub use file::{FileCommand, Opened};
 pub use help::HelpTopic;
 pub use layer::LayerCommand;
 pub use shell::ShellCommand;
-pub use view::{SpaceCommand, ViewCommand};
+pub use view::{InterfaceScale, SpaceCommand, ViewCommand};

@@ -59,6 +59,8 @@ pub enum ViewCommand {
     ShowTab(Tab),
     /// Begins or ends the mode for a projector.
     TogglePresentation,
+    /// Changes the size of text and controls.
+    Scale(InterfaceScale),
     /// Changes the view in space.
     Space(SpaceCommand),
 }
@@ -82,4 +84,15 @@ pub enum SpaceCommand {
     Light(Light),
     /// Shows the mesh in space from a direction, with a factor for heights and a height in the middle.
     Show(ViewDirection, [Option<f64>; 2]),
+}
+
+/// A change of the size of text and controls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InterfaceScale {
+    /// By a tenth of the normal size.
+    Larger,
+    /// By a tenth of the normal size.
+    Smaller,
+    /// The size that the system asks for.
+    Normal,
 }

@@ -11,7 +11,7 @@ pub use field_overlay::FieldOverlay;
 pub use space::Space;
 
 use super::Tab;
-use super::command::ViewCommand;
+use super::command::{InterfaceScale, ViewCommand};
 use super::coordinates::CoordinateStyle;
 use super::dock::Dock;
 use super::presentation::Presentation;
@@ -203,6 +203,9 @@ impl View {
             ViewCommand::TogglePanels => self.toggle_panels(),
             ViewCommand::ShowTab(tab) => self.show_tab(tab),
             ViewCommand::TogglePresentation => self.toggle_presentation(ctx),
+            ViewCommand::Scale(InterfaceScale::Larger) => egui::gui_zoom::zoom_in(ctx),
+            ViewCommand::Scale(InterfaceScale::Smaller) => egui::gui_zoom::zoom_out(ctx),
+            ViewCommand::Scale(InterfaceScale::Normal) => ctx.set_zoom_factor(1.0),
             ViewCommand::Space(command) => self.change_space(command),
         }
     }
