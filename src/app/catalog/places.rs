@@ -3,7 +3,7 @@
 use meshbrush_kit::kit::DockPlace;
 
 /// The places, section by section.
-pub static PLACES: [DockPlace; 28] = [
+pub static PLACES: &[DockPlace] = &[
     DockPlace::new("layers", "Layers", "").words("stack order visible hide lock"),
     DockPlace::new("gradation", "Gradation", "Limit gradation").words("growth smooth grading slope"),
     DockPlace::new("layers", "Selected layer", "").words("combine finest floor replace mask curve formula"),
@@ -22,6 +22,13 @@ pub static PLACES: [DockPlace; 28] = [
     DockPlace::new("mesh", "Mesh", "Threads").words("cores cpu processors parallel"),
     DockPlace::new("statistics", "Statistics", "")
         .words("figures quality angles area fingerprint counts table"),
+    DockPlace::new("statistics", "Statistics", "Smallest angle")
+        .words("quality bad elements skewness aspect ratio sliver minimum"),
+    DockPlace::new("statistics", "Statistics", "Largest angle")
+        .words("quality bad elements skewness obtuse maximum"),
+    DockPlace::new("statistics", "Statistics", "Shortest edge").words("quality minimum smallest narrowest"),
+    DockPlace::new("statistics", "Statistics", "Longest edge").words("quality maximum largest widest"),
+    DockPlace::new("statistics", "Statistics", "Gradation").words("quality growth size change neighbours"),
     DockPlace::new("plots", "Plots", "").words("chart figure time measure experiment"),
     DockPlace::new("domain", "Domain", "").words("extent outline coast region"),
     DockPlace::new("domain", "Domain", "Unit").words("metres kilometres degrees length"),

@@ -58,7 +58,7 @@ fn titles_come_before_other_words_for_them() {
 
 #[test]
 fn every_place_in_the_panels_is_put_in_sight() {
-    for place in &PLACES {
+    for place in PLACES {
         let mut window = window_of(vec2(1280.0, 720.0));
         assert!(panels::all().any(|panel| panel.name == place.panel), "{}", place.panel);
         found(&mut window, &place.title());

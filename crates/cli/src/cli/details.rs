@@ -7,7 +7,9 @@ use super::input::Input;
 use super::output_coordinates::OutputCoordinates;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{CourantFit, DepthFit, Layer, NoDepth, NodeDepths, StraitCount, Straits};
+use meshbrush_core::layers::{
+    CourantFit, DepthFit, LargestTimeStep, Layer, NoDepth, NodeDepths, StraitCount, Straits,
+};
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -25,6 +27,8 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
     pub courant: Option<CourantFit>,
+    /// The largest stable time step, if a layer has depths, lengths are no degrees, and the depths are wanted.
+    pub largest_time_step: Option<LargestTimeStep>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,
     /// The height of the surface at each node, if a layer is one and files are wanted.
@@ -77,12 +81,26 @@ impl MeshDetails {
             let ground = finished.ground();
             CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
         });
+        let largest_time_step = depths.as_ref().and_then(|depths| {
+            let ground = finished.ground();
+            LargestTimeStep::of(extract.view(), &depths.depths, finished.unit(), |ends| ground.length(ends))
+        });
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         let surface = finished.surface_fit(extract);
         let filled = surface.as_ref().filter(|_| uses.node_data);
         let heights = filled.map(|fit| fit.filled_heights(extract.view()));
-        Ok(Self { boundary, parts, provenance, depths, courant, surface, heights, straits })
+        Ok(Self {
+            boundary,
+            parts,
+            provenance,
+            depths,
+            courant,
+            largest_time_step,
+            surface,
+            heights,
+            straits,
+        })
     }
 
     /// Returns the number of triangles of each part.
@@ -220,6 +238,21 @@ impl From<CourantFit> for CourantSummary {
     fn from(fit: CourantFit) -> Self {
         let CourantFit { limit, time_step, edges, above, largest, at } = fit;
         Self { limit, time_step, edges, above, largest, at: at.into() }
+    }
+}
+
+/// The largest time step of a wave of 1 m with the Courant number 1 along every edge.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct TimeStepSummary {
+    /// The time step, in seconds.
+    pub seconds: f64,
+    /// The middle of the edge that decides it.
+    pub at: [f64; 2],
+}
+
+impl From<LargestTimeStep> for TimeStepSummary {
+    fn from(LargestTimeStep { seconds, at, edge: _ }: LargestTimeStep) -> Self {
+        Self { seconds, at: at.into() }
     }
 }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::build::FinishedMesh;
 use super::details::{
     CourantSummary, DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
-    SurfaceSummary,
+    SurfaceSummary, TimeStepSummary,
 };
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
@@ -55,6 +55,9 @@ pub struct Summary {
     /// The Courant numbers of the edges, if a layer keeps them below a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub courant: Option<CourantSummary>,
+    /// The largest stable time step, if a layer has depths and lengths are no degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_time_step: Option<TimeStepSummary>,
     /// How far the mesh is from surfaces, if a layer is one.
     #[serde(flatten)]
     pub surface: Option<SurfaceSummary>,
@@ -310,6 +313,7 @@ impl Summary {
             seconds: finished.refinement.as_secs_f64(),
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
             courant: details.and_then(|details| details.courant).map(CourantSummary::from),
+            largest_time_step: details.and_then(|details| details.largest_time_step).map(Into::into),
             surface: fit
                 .as_ref()
                 .zip(finished.built().surface.as_ref())

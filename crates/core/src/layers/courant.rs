@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::depth::wave_speed;
 use super::{Combine, DepthRule, Depths, Layer};
 use crate::mesh::MeshView;
+use crate::text::LengthUnit;
 
 /// What solvers check: the Courant numbers of edges, u Δt / L, where L is the length of an edge and
 /// u = √(g H) + √(g / H) that of a wave of 1 m at the mean depth H of its ends, at least 1 m.
@@ -25,6 +26,65 @@ pub struct CourantFit {
     pub at: DVec2,
 }
 
+/// The largest time step of a wave of 1 m with the Courant number 1 along every edge: the least L / u, with L
+/// and u as of [`CourantFit`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LargestTimeStep {
+    /// The time step, in seconds. For another Courant number it is that many times as long.
+    pub seconds: f64,
+    /// The middle of the edge that decides it, in world units.
+    pub at: DVec2,
+    /// The length of that edge, in the unit of the document.
+    pub edge: f64,
+}
+
+impl LargestTimeStep {
+    /// Returns that of a mesh; `None` where no edge has water at an end, and in degrees. `depths` are those at
+    /// the nodes, in metres, and `length` measures an edge in the unit of the document; plain numbers are
+    /// metres.
+    pub fn of(
+        mesh: MeshView,
+        depths: &[f64],
+        unit: LengthUnit,
+        length: impl Fn([DVec2; 2]) -> f64 + Sync,
+    ) -> Option<Self> {
+        let metres = match unit {
+            LengthUnit::None | LengthUnit::Metre => 1.0,
+            LengthUnit::Kilometre => 1000.0,
+            LengthUnit::Degree => return None,
+        };
+        let of_edge = |wet: WetEdge| {
+            let edge = length(wet.ends);
+            Self { seconds: metres * edge / wet.speed, at: wet.middle(), edge }
+        };
+        // Of equal ones the first: the answer does not depend on threads.
+        let steps: Vec<Self> = wet_edges(mesh, depths).into_par_iter().map(of_edge).collect();
+        steps.into_iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+}
+
+/// An edge with water at an end.
+struct WetEdge {
+    ends: [DVec2; 2],
+    /// The speed of a wave, in m/s.
+    speed: f64,
+}
+
+impl WetEdge {
+    fn middle(&self) -> DVec2 {
+        0.5 * (self.ends[0] + self.ends[1])
+    }
+}
+
+fn wet_edges(mesh: MeshView, depths: &[f64]) -> Vec<WetEdge> {
+    let wet = |[from, to]: [u32; 2]| {
+        let [a, b] = [from, to].map(|node| depths[node as usize]);
+        let ends = [from, to].map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node as usize]));
+        (a > 0.0 || b > 0.0).then(|| WetEdge { ends, speed: wave_speed(0.5 * (a + b)) })
+    };
+    edges(mesh).into_par_iter().filter_map(wet).collect()
+}
+
 /// Share by which a Courant number may exceed the limit by rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -39,15 +99,8 @@ impl CourantFit {
     ) -> Option<Self> {
         let (time_step, limit) =
             layers.iter().filter_map(floor).max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)))?;
-        let of_edge = |[from, to]: [u32; 2]| {
-            let ends = [from, to].map(|node| depths[node as usize]);
-            let places =
-                [from, to].map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node as usize]));
-            let is_wet = ends.iter().any(|depth| *depth > 0.0);
-            let number = wave_speed(0.5 * (ends[0] + ends[1])) * time_step / length(places);
-            is_wet.then_some((number, 0.5 * (places[0] + places[1])))
-        };
-        let numbers: Vec<(f64, DVec2)> = edges(mesh).par_iter().filter_map(|&edge| of_edge(edge)).collect();
+        let of_edge = |wet: WetEdge| (wet.speed * time_step / length(wet.ends), wet.middle());
+        let numbers: Vec<(f64, DVec2)> = wet_edges(mesh, depths).into_par_iter().map(of_edge).collect();
         let above = numbers.iter().filter(|(number, _)| *number > limit * (1.0 + ROUNDING)).count();
         let (largest, at) = numbers.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
         Some(Self { limit, time_step, edges: numbers.len(), above, largest, at })

@@ -327,6 +327,9 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Triangles", "Triangles of the mesh, as files get it."),
     ("Nodes", "Nodes of the mesh, as files get it."),
     ("Area", "Area of all triangles."),
+    ("Time step", "The largest time step of a solver for a wave of 1 m with the Courant number 1."),
+    ("Smallest angle", "The smallest angle of all triangles."),
+    ("Largest angle", "The largest angle of all triangles."),
     ("Angles", "The smallest and the largest angle of all triangles."),
     (
         "Fingerprint",

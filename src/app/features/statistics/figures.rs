@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{Statistics, StatisticsCommand, levels::LEVELS, panel::STATISTICS};
 use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::layers::{LargestTimeStep, NodeDepths};
 use meshbrush_kit::kit::derivation::MeasuredMesh;
 use meshbrush_kit::kit::jobs::{Jobs, Wanted};
 use meshbrush_kit::kit::session::Session;
@@ -14,6 +15,8 @@ use meshbrush_mesh::mesh::{MeshStatistics, TriangleId};
 pub struct Measured {
     /// Edges, areas, angles and gradation; `None` without triangles.
     pub statistics: Option<MeshStatistics>,
+    /// The largest stable time step, where layers have depths at all nodes and lengths are no degrees.
+    pub time_step: Option<LargestTimeStep>,
     /// Area in square world units.
     pub area: f64,
     /// Nodes.
@@ -68,6 +71,8 @@ impl Statistics {
         let extract = session.derived().map(|derived| derived.shared_extract());
         let (mesh, domain, field) =
             (follower.shared_mesh(), follower.domain().clone(), follower.field().clone());
+        let layers = session.document().settings().layers.clone();
+        let unit = session.document().settings().unit;
         let ground_of = session.document().settings().domain.clone();
         let (rule, paint) = (follower.settings().rule, session.document().paint().clone());
         let surface = follower.surface().cloned();
@@ -80,6 +85,11 @@ impl Statistics {
             let ground = ground_of.ground();
             let statistics = ground.statistics(&extract);
             go_on()?;
+            let depths = NodeDepths::of(&layers, extract.view());
+            let time_step = depths.and_then(Result::ok).and_then(|NodeDepths { depths, .. }| {
+                LargestTimeStep::of(extract.view(), &depths, unit, |ends| ground.length(ends))
+            });
+            go_on()?;
             let (area, part_sizes) = (ground.mesh_area(&extract), extract.part_sizes());
             go_on()?;
             let fingerprint = mesh.fingerprint().to_string();
@@ -87,6 +97,7 @@ impl Statistics {
             let too_coarse = mesh.unsatisfied(|element| criterion.exceeds(element)).ok();
             Some(Measured {
                 statistics,
+                time_step,
                 area,
                 nodes: extract.nodes().len(),
                 part_sizes,

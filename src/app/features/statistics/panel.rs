@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::Measured;
 use crate::app::features::statistics::{Statistics, StatisticsCommand};
+use meshbrush_core::layers::LargestTimeStep;
 use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
 use meshbrush_kit::kit::{FrameState, Panel, Tab};
 use meshbrush_mesh::mesh::MeshStatistics;
@@ -73,12 +74,14 @@ fn count_rows(ui: &mut Ui, measured: &Measured) {
 }
 
 fn edge_rows(ui: &mut Ui, statistics: &MeshStatistics, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let length = |value| format::length(value, state.unit());
     let help = "A click goes to this edge.";
-    let (value, place) = (&length(statistics.shortest_edge), statistics.shortest_edge_at);
-    PlaceRow { label: "Shortest edge", value, help, place }.show(ui, commands);
-    let (value, place) = (&length(statistics.longest_edge), statistics.longest_edge_at);
-    PlaceRow { label: "Longest edge", value, help, place }.show(ui, commands);
+    for (label, length, place) in [
+        ("Shortest edge", statistics.shortest_edge, statistics.shortest_edge_at),
+        ("Longest edge", statistics.longest_edge, statistics.longest_edge_at),
+    ] {
+        let value = &format::length(length, state.unit());
+        PlaceRow { label, value, help, place, size: length }.show(ui, commands);
+    }
 }
 
 fn shape_rows(
@@ -89,12 +92,26 @@ fn shape_rows(
     commands: &mut Vec<Command>,
 ) {
     value_row(ui, "Area", &format::area(measured.area, state.unit(), 6));
-    let angles = [statistics.smallest_angle, statistics.largest_angle].map(|angle| format::fixed(angle, 1));
-    value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
+    // Where a triangle is that a figure speaks of, others are not smaller than the shortest edge.
+    let size = statistics.shortest_edge;
+    let help = "A click goes to this corner.";
+    for (label, angle, place) in [
+        ("Smallest angle", statistics.smallest_angle, statistics.smallest_angle_at),
+        ("Largest angle", statistics.largest_angle, statistics.largest_angle_at),
+    ] {
+        let value = &format!("{}°", format::fixed(angle, 1));
+        PlaceRow { label, value, help, place, size }.show(ui, commands);
+    }
     let (value, place) =
         (&format!("× {}", format::fixed(statistics.size_ratio, 2)), statistics.size_ratio_at);
     let help = "The largest ratio of the diameters of two neighbouring triangles. A click goes there.";
-    PlaceRow { label: "Gradation", value, help, place }.show(ui, commands);
+    PlaceRow { label: "Gradation", value, help, place, size }.show(ui, commands);
+    if let Some(LargestTimeStep { seconds, at, edge }) = measured.time_step {
+        let value = &format::time(seconds);
+        let help = "The largest time step of a solver for a wave of 1 m with the Courant number 1 along every edge. A click \
+                    goes to the edge that decides it.";
+        PlaceRow { label: "Time step", value, help, place: at, size: edge }.show(ui, commands);
+    }
 }
 
 /// Whether the mesh honours h̄: Eq. (14) of the report.
@@ -115,7 +132,8 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
                 return;
             };
             let help = "Triangles that are longer than h̄ asks for. A click goes to the first of them.";
-            PlaceRow { label, value: &value, help, place }.show(ui, commands);
+            let size = mesh.diameter(*first);
+            PlaceRow { label, value: &value, help, place, size }.show(ui, commands);
         }
         None => {
             let help = "At some point the target diameter is not a positive number.";
@@ -136,12 +154,14 @@ struct PlaceRow<'a> {
     value: &'a str,
     help: &'a str,
     place: DVec2,
+    /// The size of what is there, in world units.
+    size: f64,
 }
 
 impl PlaceRow<'_> {
     fn show(self, ui: &mut Ui, commands: &mut Vec<Command>) {
         if ValueRow::new(self.label, self.value).help(self.help).link().show(ui).clicked() {
-            commands.push(Command::from(ViewCommand::LookAt(self.place)));
+            commands.push(Command::from(ViewCommand::GoTo(self.place, self.size)));
         }
     }
 }

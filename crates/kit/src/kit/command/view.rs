@@ -19,6 +19,9 @@ pub enum ViewCommand {
     Fit,
     /// Puts a point in the middle of the canvas.
     LookAt(DVec2),
+    /// Puts a point in the middle of the canvas, near enough that something of this size there can be seen;
+    /// both in world units.
+    GoTo(DVec2, f64),
     /// Shows an area, in world units, as large as it fits.
     ShowArea(Rect),
     /// Shows an area of a domain with these bounds, once its mesh is there; both in world units.

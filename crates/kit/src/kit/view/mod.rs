@@ -27,6 +27,9 @@ use meshbrush_ui::widgets::{format, reveal};
 /// The least radius of the brush where the whole domain is in sight, as a share of its longer side.
 const LEAST_BRUSH_SHARE: f64 = 1e-4;
 
+/// The size in pixels at which something that is gone to can be seen.
+const SEEN_PX: f64 = 60.0;
+
 /// The contents of the window and their appearance.
 #[derive(Clone, Debug)]
 pub struct View {
@@ -170,6 +173,7 @@ impl View {
         match command {
             ViewCommand::Fit => self.fit(),
             ViewCommand::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
+            ViewCommand::GoTo(point, size) => self.go_to(point, size, SEEN_PX),
             ViewCommand::ShowArea(area) => self.show_area(area),
             ViewCommand::ShowAreaOf(bounds, area) => self.wanted_area = Some([bounds, area]),
             ViewCommand::Zoom(factor) => {

@@ -236,17 +236,28 @@ impl Extract<'_> {
 
     /// Returns the smallest and the largest angle of all triangles, in degrees; [180, 0] without triangles.
     pub fn angle_range(&self) -> [f64; 2] {
+        self.extreme_angles().map(|(angle, _)| angle)
+    }
+
+    /// Returns the smallest and the largest angle of all triangles in degrees, each with its corner in world
+    /// units; 180° and 0° without triangles.
+    pub fn extreme_angles(&self) -> [(f64, DVec2); 2] {
         // By their cosines: one arc cosine for each end.
-        let mut cosines = [-1.0_f64, 1.0];
+        let mut extremes = [(-1.0_f64, DVec2::ZERO), (1.0, DVec2::ZERO)];
         for cell in self.cells() {
             let corners = cell.corners.map(|node| self.world(NodeId::from_index(node)));
             for k in 0..3 {
                 let (p, q) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
                 let cosine = p.dot(q) / (p.length() * q.length());
-                cosines = [cosines[0].max(cosine), cosines[1].min(cosine)];
+                if cosine > extremes[0].0 {
+                    extremes[0] = (cosine, corners[k]);
+                }
+                if cosine < extremes[1].0 {
+                    extremes[1] = (cosine, corners[k]);
+                }
             }
         }
-        cosines.map(|cosine| libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees())
+        extremes.map(|(cosine, at)| (libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees(), at))
     }
 
     /// Returns for each node whether a boundary edge ends there.

@@ -23,8 +23,14 @@ pub struct MeshStatistics {
     pub largest_area: f64,
     /// The smallest angle.
     pub smallest_angle: f64,
+    /// Its corner.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub smallest_angle_at: DVec2,
     /// The largest angle.
     pub largest_angle: f64,
+    /// Its corner.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub largest_angle_at: DVec2,
     /// Gradation: the largest ratio of the diameters of two triangles that share an edge, at least 1.
     pub size_ratio: f64,
     /// Middle of the edge between these two triangles.
@@ -56,7 +62,7 @@ impl Extract<'_> {
             extremes.note_ratios(self, triangle, diameter);
         }
         let (shortest, longest) = (extremes.shortest?, extremes.longest?);
-        let [smallest_angle, largest_angle] = self.angle_range();
+        let [smallest, largest] = self.extreme_angles();
         let [smallest_area, largest_area] = extremes.areas?;
         let (size_ratio, size_ratio_at) = extremes.ratio.unwrap_or((1.0, longest.1));
         Some(MeshStatistics {
@@ -66,8 +72,10 @@ impl Extract<'_> {
             longest_edge_at: longest.1,
             smallest_area,
             largest_area,
-            smallest_angle,
-            largest_angle,
+            smallest_angle: smallest.0,
+            smallest_angle_at: smallest.1,
+            largest_angle: largest.0,
+            largest_angle_at: largest.1,
             size_ratio,
             size_ratio_at,
         })
@@ -153,6 +161,19 @@ mod tests {
         assert!(near(statistics.size_ratio, 1.0));
         assert!((statistics.smallest_angle - 45.0).abs() < 1e-6);
         assert!((statistics.largest_angle - 90.0).abs() < 1e-6);
+        let extract = mesh.extract();
+        let has_angle = |at: DVec2, angle: f64| {
+            extract.cells().any(|cell| {
+                let corners = cell.corners.map(|node| extract.world(NodeId::from_index(node)));
+                (0..3).filter(|&k| corners[k] == at).any(|k| {
+                    let [p, q] = [1, 2].map(|step| corners[(k + step) % 3] - corners[k]);
+                    (p.angle_to(q).abs().to_degrees() - angle).abs() < 1e-6
+                })
+            })
+        };
+        assert!(
+            has_angle(statistics.smallest_angle_at, 45.0) && has_angle(statistics.largest_angle_at, 90.0)
+        );
     }
 
     #[test]
