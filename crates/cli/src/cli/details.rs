@@ -27,7 +27,7 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
     pub courant: Option<CourantFit>,
-    /// The largest stable time step, if a layer has depths, lengths are no degrees, and the depths are wanted.
+    /// The largest stable time step, if a layer has depths, lengths are no degrees, and depths are wanted.
     pub largest_time_step: Option<LargestTimeStep>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,

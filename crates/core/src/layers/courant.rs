@@ -39,8 +39,8 @@ pub struct LargestTimeStep {
 }
 
 impl LargestTimeStep {
-    /// Returns that of a mesh; `None` where no edge has water at an end, and in degrees. `depths` are those at
-    /// the nodes, in metres, and `length` measures an edge in the unit of the document; plain numbers are
+    /// Returns that of a mesh; `None` where no edge has water at an end, and in degrees. `depths` are those
+    /// at the nodes, in metres, and `length` measures an edge in the unit of the document; plain numbers are
     /// metres.
     pub fn of(
         mesh: MeshView,
