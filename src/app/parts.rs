@@ -75,16 +75,20 @@ pub fn focus(ctx: &Context, canvas: Option<Id>, by: i32) {
         .map(|(part, (_, rect))| (part, rect))
         .collect();
     let focused = ctx.memory(|memory| memory.focused());
+    let id_of = |part: WindowPart| if part == WindowPart::Canvas { canvas } else { Some(part.id()) };
+    let own = focused.and_then(|focused| parts.iter().position(|(part, _)| id_of(*part) == Some(focused)));
+    // A control is in the smallest part around it: a dock can hold another one.
     let place = focused.and_then(|id| ctx.read_response(id)).map(|response| response.rect.center());
-    let own = place.and_then(|place| parts.iter().position(|(_, rect)| rect.contains(place)));
-    let canvas_at = || parts.iter().position(|(part, _)| *part == WindowPart::Canvas);
-    let Some(from) = own.or_else(canvas_at).filter(|_| !parts.is_empty()) else { return };
-    let to = (from as i32 + by).rem_euclid(parts.len() as i32) as usize;
-    let id = match parts[to].0 {
-        WindowPart::Canvas => canvas,
-        part => Some(part.id()),
+    let around = || {
+        let around =
+            parts.iter().enumerate().filter(|(_, (_, rect))| place.is_some_and(|at| rect.contains(at)));
+        around.min_by(|(_, (_, a)), (_, (_, b))| a.area().total_cmp(&b.area())).map(|(place, _)| place)
     };
-    if let Some(id) = id {
+    let own = own.or_else(around);
+    let canvas_at = || parts.iter().position(|(part, _)| *part == WindowPart::Canvas);
+    let Some(from) = own.or_else(canvas_at) else { return };
+    let to = (from as i32 + by).rem_euclid(parts.len() as i32) as usize;
+    if let Some(id) = id_of(parts[to].0) {
         ctx.memory_mut(|memory| memory.request_focus(id));
     }
 }

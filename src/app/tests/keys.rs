@@ -12,7 +12,9 @@ use super::{
 use crate::app::features::ROWS;
 use crate::app::features::inspection::QUERY;
 use crate::app::features::painting::{BRUSH, ERASER};
-use meshbrush_kit::kit::all_tools;
+use meshbrush_core::document::Example;
+use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::{Tab, all_tools};
 
 #[test]
 fn a_tool_is_selected_by_its_key_and_by_its_button() {
@@ -222,6 +224,31 @@ fn f6_leads_through_the_parts_of_the_window_and_tab_into_them() {
     assert_eq!(focused(&window).as_deref(), Some("Tools"), "also from a field");
     key(&mut window, Modifiers::COMMAND, Key::B);
     assert!(!window.state().view().panels);
+}
+
+/// Whatever a dock shows, and wherever its last control is, the key leads through all parts.
+#[test]
+fn f6_sticks_at_no_part_with_any_tab() {
+    let mut window = window();
+    super::send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
+    for tab in Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method) {
+        super::open_tab(&mut window, tab);
+        // To the last control of the panel, and from there twice through the window.
+        for _ in 0..2 {
+            key(&mut window, Modifiers::NONE, Key::F6);
+        }
+        key(&mut window, Modifiers::SHIFT, Key::Tab);
+        let mut seen = Vec::new();
+        for _ in 0..14 {
+            key(&mut window, Modifiers::NONE, Key::F6);
+            seen.extend(focused(&window));
+        }
+        for part in
+            ["Layers dock", "Panel", "Status bar", "Menus", "Tools", "Options of the tool", "Mesh canvas"]
+        {
+            assert_eq!(seen.iter().filter(|name| *name == part).count(), 2, "{part}, {tab:?}: {seen:?}");
+        }
+    }
 }
 
 #[test]

@@ -87,6 +87,8 @@ impl ProjectFile {
 
     /// Puts a file at the top of the recent ones.
     pub fn note_recent(&mut self, path: PathBuf) {
+        // A later run may have another working folder.
+        let path = std::path::absolute(&path).unwrap_or(path);
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(MOST_RECENT);
@@ -391,4 +393,19 @@ fn with_ending(path: PathBuf) -> PathBuf {
     let mut name = path.into_os_string();
     name.push(format!(".{ENDING}"));
     name.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn recent_files_are_found_from_any_folder() {
+        let mut project = ProjectFile::new(0);
+        for name in ["coast.meshbrush", "./coast.meshbrush", "other.toml"] {
+            project.note_recent(name.into());
+        }
+        let folder = std::env::current_dir().unwrap();
+        assert_eq!(project.recent(), [folder.join("other.toml"), folder.join("coast.meshbrush")]);
+    }
 }
