@@ -465,3 +465,16 @@ fn a_mistake_in_a_layer_alone_is_at_its_key() {
         }
     }
 }
+
+/// A number that TOML does not have must not take its layer with it.
+#[test]
+fn the_largest_number_of_triangles_is_written() {
+    use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+    let source = SurfaceSource::Formula("x".parse().unwrap());
+    let goal = SurfaceGoal::AtMost(usize::MAX);
+    let kind = LayerKind::Surface(Surface { source, goal, norm: SurfaceNorm::default() });
+    let layer = Layer::stack([kind]).remove(0);
+    let layer = SavedLayer::of(&layer, None, crate::io::layers::ListsInPlace::ALL);
+    let text = to_text(&SavedSettings { layer: vec![layer], ..SavedSettings::default() });
+    assert!(text.contains("at_most = 9223372036854775807"), "{text}");
+}

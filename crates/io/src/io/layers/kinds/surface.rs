@@ -49,7 +49,8 @@ impl SurfaceKeys {
         };
         let (within, at_most) = match *goal {
             SurfaceGoal::Within(error) => (Some(error), None),
-            SurfaceGoal::AtMost(count) => (None, Some(count)),
+            // TOML has no larger numbers, and no mesh as many triangles.
+            SurfaceGoal::AtMost(count) => (None, Some(count.min(i64::MAX as usize))),
         };
         let norm = (*norm != SurfaceNorm::default()).then(|| (*norm).into());
         Self { grid: GridKeys::default(), goal: GoalKeys { formula, within, at_most, norm } }
