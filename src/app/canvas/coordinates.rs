@@ -4,7 +4,7 @@ use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, Wid
 use glam::{DVec2, dvec2};
 
 use super::graticule;
-use meshbrush_core::earth::{DegreeStyle, EarthPlane, graticule as lines_of_graticule};
+use meshbrush_core::earth::{DegreeStyle, EarthPlane};
 use meshbrush_kit::kit::{FrameState, marks};
 use meshbrush_mesh::text::{LengthUnit, round_below};
 use meshbrush_render::render::north_arrow::north_arrow;
@@ -86,7 +86,7 @@ pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>)
 /// Ticks where meridians leave the canvas at the top and parallels at the left.
 fn paint_degrees(ui: &Ui, rect: Rect, camera: &Camera, plane: EarthPlane, style: DegreeStyle) {
     let screen = camera.screen_map();
-    for line in lines_of_graticule(plane, camera.visible_world(), style) {
+    for line in graticule::lines_across(ui, plane, camera.visible_world(), style).iter() {
         let side = if line.is_meridian { Side::Top } else { Side::Left };
         let (axis, value) = match side {
             Side::Top => (1, rect.top()),

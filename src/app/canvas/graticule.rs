@@ -1,10 +1,13 @@
 //! Meridians and parallels over the mesh, in documents on the Earth.
 
-use eframe::egui::{Align2, Pos2, Rect, Ui, pos2};
+use std::sync::Arc;
+
+use eframe::egui::{Align2, Id, Pos2, Rect, Ui, pos2};
 
 use super::coordinates::paint_label;
-use meshbrush_core::earth::{DegreeStyle, EarthPlane, graticule};
+use meshbrush_core::earth::{DegreeStyle, EarthPlane, GraticuleLine, graticule};
 use meshbrush_kit::kit::{FrameState, marks};
+use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_render::scene::Camera;
 use meshbrush_ui::theme::tokens;
 
@@ -19,9 +22,9 @@ pub fn paint(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
     let style = state.geographic_plane().map_or(DegreeStyle::Minutes, |(_, style)| style);
     let (painter, screen, t) = (ui.painter_at(rect), camera.screen_map(), tokens(ui));
     let at = |world| marks::point_from_px(rect, screen(world), ui.pixels_per_point());
-    let lines = graticule(plane, camera.visible_world(), style);
+    let lines = lines_across(ui, plane, camera.visible_world(), style);
     let lines: Vec<_> = lines
-        .into_iter()
+        .iter()
         .map(|line| (line.points.iter().map(|&point| at(point)).collect::<Vec<Pos2>>(), line))
         .collect();
     for (points, _) in &lines {
@@ -37,6 +40,27 @@ pub fn paint(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
             paint_label(ui, rect, place, align, &line.label);
         }
     }
+}
+
+/// Returns the meridians and parallels across an area. They are found once for a view: lines and rulers share
+/// them, and they stay while the view does.
+pub fn lines_across(
+    ui: &Ui,
+    plane: EarthPlane,
+    area: WorldRect,
+    style: DegreeStyle,
+) -> Arc<Vec<GraticuleLine>> {
+    type Key = (EarthPlane, WorldRect, DegreeStyle);
+    let (id, key): (Id, Key) = (Id::unique("lines of the graticule"), (plane, area, style));
+    let kept: Option<(Key, Arc<Vec<GraticuleLine>>)> = ui.data(|data| data.get_temp(id));
+    if let Some((of, lines)) = kept
+        && of == key
+    {
+        return lines;
+    }
+    let lines = Arc::new(graticule(plane, area, style));
+    ui.data_mut(|data| data.insert_temp(id, (key, lines.clone())));
+    lines
 }
 
 /// Returns where a line first crosses a line of the screen: x or y, by the number of the axis.

@@ -6,9 +6,9 @@ use super::level_legend;
 use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
 use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
-use meshbrush_kit::kit::FrameState;
 use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::view::{FieldOverlay, deepest_level};
+use meshbrush_kit::kit::{FrameState, light_level};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_study::relief::isobath_interval;
 use meshbrush_ui::theme::{font, tokens};
@@ -28,7 +28,7 @@ pub(super) const MARGIN: Vec2 = vec2(10.0, 7.0);
 pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Command>) -> Option<Rect> {
     let inner = inner.with_min_y(inner.top() + 12.0);
     let palette = &palette_of(state);
-    let mut takes_clicks = None;
+    let mut levels = None;
     let content = match state.view.overlay {
         FieldOverlay::None if state.view.space.is_on => None,
         _ if state.view.space.is_on => Some(plan_only(ui, inner)),
@@ -44,13 +44,16 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Com
         FieldOverlay::SurfaceError => Some(surface_error_legend(ui, inner, state, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None if state.view.aids.levels => {
-            level_legend::show(ui, inner, state, commands).inspect(|place| takes_clicks = Some(*place))
+            levels = level_legend::show(ui, inner, state, commands);
+            levels.map(|(place, _)| place)
         }
         FieldOverlay::None => None,
     };
     let top = content.map_or(inner.top(), |content| content.bottom() + MARGIN.y + 8.0);
     path_legend(ui, inner.with_min_y(top), state);
-    takes_clicks
+    // Also when the legend is hidden: then it lights no level.
+    light_level(ui, "canvas", levels.and_then(|(_, hovered)| hovered), state, commands);
+    levels.map(|(place, _)| place)
 }
 
 /// Returns the colours of overlays as they are drawn.

@@ -1,7 +1,7 @@
 //! The levels of the mesh on the canvas: colours, diameters and counts. A click shows a level alone.
 
 use eframe::egui::{
-    Align2, Color32, CornerRadius, Id, PointerButton, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, CornerRadius, PointerButton, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::legend::{MARGIN, ROW, TITLE, boxed};
@@ -19,9 +19,14 @@ const MOST: [f32; 2] = [0.25, 0.55];
 /// Columns at whose right ends the level and the diameter are, in points from the left.
 const COLUMNS: [f32; 2] = [SWATCH + 17.0, SWATCH + 66.0];
 
-/// Shows the levels that the mesh has in the upper right corner of `inner`. Returns the place of the box;
-/// `None` where there is no room, or no mesh yet.
-pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Command>) -> Option<Rect> {
+/// Shows the levels that the mesh has in the upper right corner of `inner`. Returns the place of the box, and
+/// the level under the pointer or with the focus; `None` where there is no room, or no mesh yet.
+pub fn show(
+    ui: &Ui,
+    inner: Rect,
+    state: &FrameState<'_>,
+    commands: &mut Vec<Command>,
+) -> Option<(Rect, Option<u32>)> {
     let counts = state.session.level_counts();
     let levels: Vec<u32> =
         (0..counts.len()).filter(|&level| counts[level] > 0).map(|level| level as u32).collect();
@@ -66,8 +71,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Com
             "A click shows this level alone."
         });
     }
-    light(ui, hovered, state, commands);
-    Some(within.expand2(MARGIN))
+    Some((within.expand2(MARGIN), hovered))
 }
 
 fn paint_row(ui: &Ui, place: Rect, color: Color32, texts: [String; 3], [is_shown, is_lit]: [bool; 2]) {
@@ -90,18 +94,5 @@ fn short_count(count: usize) -> String {
     match count {
         0..1_000_000 => format::count(count as u64),
         _ => format!("{:.1} M", count as f64 / 1e6),
-    }
-}
-
-/// Shows the level under the pointer alone, and all again when the pointer leaves the legend: the panel of
-/// levels does the same, so that each takes back only what it has asked for.
-fn light(ui: &Ui, hovered: Option<u32>, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let id = Id::unique("level that the legend on the canvas lights");
-    let lit: Option<u32> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    if hovered != lit {
-        ui.data_mut(|data| data.insert_temp(id, hovered));
-        commands.push(Command::from(ViewCommand::ShowLevel(hovered)));
-    } else if hovered.is_some() && state.view.lone_level != hovered {
-        commands.push(Command::from(ViewCommand::ShowLevel(hovered)));
     }
 }

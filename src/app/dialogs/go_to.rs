@@ -132,7 +132,7 @@ fn command_to(point: DVec2, state: &FrameState<'_>) -> Result<Command, String> {
         Some(_) => (state.place_text(bounds.min), state.place_text(bounds.max).values),
         None => {
             let text = |corner: DVec2| corner.to_array().map(|value| format::length(value, state.unit()));
-            (PlaceText { names: ["x", "y"], values: text(bounds.min) }, text(bounds.max))
+            (PlaceText { names: state.place_names(), values: text(bounds.min) }, text(bounds.max))
         }
     };
     let range = |axis: usize| format!("{} is {} to {}", names[axis], from[axis], to[axis]);

@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use eframe::egui::{Align, Layout, Ui};
-use glam::DVec2;
 
 use crate::app::features::inspection::decided_by;
 use meshbrush_core::document::Stage;
@@ -73,7 +72,7 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 5] {
     };
     let pointer = state.pointer.filter(|_| !state.session.awaits_mesh());
     let Some(point) = pointer else {
-        let names = state.place_text(DVec2::ZERO).names;
+        let names = state.place_names();
         return cells(PlaceText { names, values: [NONE; 2].map(String::from) }, [NONE; 3].map(String::from));
     };
     let (document, follower) = (state.session.document(), state.session.follower());

@@ -317,6 +317,11 @@ fn a_click_in_the_legend_on_the_canvas_shows_a_level_alone_and_the_pointer_light
     window.event(Event::PointerMoved(super::canvas(&window).center()));
     window.run();
     assert_eq!(window.state().view().lone_level, None);
+    window.event(Event::PointerMoved(at));
+    window.run();
+    assert_eq!(window.state().view().lone_level, Some(level as u32));
+    key(&mut window, Modifiers::NONE, Key::O);
+    assert_eq!(window.state().view().lone_level, None, "an overlay has the place of the legend");
 }
 
 #[test]

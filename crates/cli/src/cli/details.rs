@@ -27,7 +27,7 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
     pub courant: Option<CourantFit>,
-    /// The largest stable time step, if a layer has depths, lengths are no degrees, and depths are wanted.
+    /// The largest stable time step, if a layer has depths, lengths are no degrees, and it is wanted.
     pub largest_time_step: Option<LargestTimeStep>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,
@@ -81,7 +81,7 @@ impl MeshDetails {
             let ground = finished.ground();
             CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
         });
-        let largest_time_step = depths.as_ref().and_then(|depths| {
+        let largest_time_step = depths.as_ref().filter(|_| uses.json).and_then(|depths| {
             let ground = finished.ground();
             LargestTimeStep::of(extract.view(), &depths.depths, finished.unit(), |ends| ground.length(ends))
         });

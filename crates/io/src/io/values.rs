@@ -83,7 +83,7 @@ impl TextValue {
         }
     }
 
-    pub(super) fn refused<T>(&self, expected: impl fmt::Display) -> Result<T, KeyFault> {
+    fn refused<T>(&self, expected: impl fmt::Display) -> Result<T, KeyFault> {
         Err(KeyFault::not_a(expected, self.unexpected()))
     }
 

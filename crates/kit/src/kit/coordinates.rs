@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use meshbrush_core::document::Settings;
 use meshbrush_core::earth::{DegreeStyle, EarthPlane, GeographicAxis};
+use meshbrush_ui::widgets::degrees::KM_PER_DEGREE;
 use meshbrush_ui::widgets::format;
 
 /// The coordinates that places are written in. Documents that do not lie on the Earth have those of their
@@ -61,19 +62,23 @@ pub fn geographic_plane(settings: &Settings, style: CoordinateStyle) -> Option<(
 /// Returns a place, in world units, with the digits that tell it apart from one that is `step` world units
 /// away.
 pub fn place_text(settings: &Settings, style: CoordinateStyle, at: DVec2, step: f64) -> PlaceText {
-    let Some((plane, style)) = geographic_plane(settings, style) else {
+    let geographic = geographic_plane(settings, style);
+    let names = names_of(geographic.is_some());
+    let Some((plane, style)) = geographic else {
         let values = at.to_array().map(|value| format::coordinate(value, step, settings.unit));
-        return PlaceText { names: ["x", "y"], values };
+        return PlaceText { names, values };
     };
     let [longitude, latitude] = plane.geographic(at).to_array();
     let step = match plane {
         EarthPlane::Degrees => step,
-        EarthPlane::Projected(_) => step / METRES_PER_DEGREE,
+        EarthPlane::Projected(_) => step / (1000.0 * KM_PER_DEGREE),
     };
     let text = |axis, degrees| style.text(axis, degrees, step);
     let values = [text(GeographicAxis::Longitude, longitude), text(GeographicAxis::Latitude, latitude)];
-    PlaceText { names: ["lon", "lat"], values }
+    PlaceText { names, values }
 }
 
-/// About how many metres a degree of latitude is long.
-const METRES_PER_DEGREE: f64 = 111_000.0;
+/// Returns the names of the coordinates of places on the Earth, or in a plane.
+pub fn names_of(is_geographic: bool) -> [&'static str; 2] {
+    if is_geographic { ["lon", "lat"] } else { ["x", "y"] }
+}

@@ -3,7 +3,7 @@
 use std::any::{Any, TypeId};
 
 use super::{Keymap, LayerKinds};
-use crate::kit::coordinates::{PlaceText, geographic_plane, place_text};
+use crate::kit::coordinates::{PlaceText, geographic_plane, names_of, place_text};
 use crate::kit::project::ProjectFile;
 use crate::kit::readout::Readout;
 use crate::kit::session::Session;
@@ -64,6 +64,11 @@ impl<'a> FrameState<'a> {
     /// See [`geographic_plane`].
     pub fn geographic_plane(&self) -> Option<(EarthPlane, DegreeStyle)> {
         geographic_plane(self.session.document().settings(), self.view.coordinates)
+    }
+
+    /// Returns the names of the coordinates that the person wants.
+    pub fn place_names(&self) -> [&'static str; 2] {
+        names_of(self.geographic_plane().is_some())
     }
 
     /// Returns a place, in world units, in the coordinates that the person wants, with the digits that a

@@ -2,8 +2,6 @@
 
 use eframe::egui::{Align2, FontId, Pos2, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use glam::DVec2;
-
 use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use super::table::PinRow;
@@ -89,7 +87,7 @@ fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 fn headings(state: &FrameState<'_>) -> [String; COLUMNS] {
-    let [x, y] = state.place_text(DVec2::ZERO).names;
+    let [x, y] = state.place_names();
     let mut all = ["Pin", x, y].into_iter().chain(HEADINGS).map(str::to_owned);
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }

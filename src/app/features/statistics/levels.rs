@@ -1,10 +1,10 @@
 //! The legend of the levels.
 
-use eframe::egui::{Color32, Id, Ui};
+use eframe::egui::{Color32, Ui};
 
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_kit::kit::view::deepest_level;
-use meshbrush_kit::kit::{FrameState, Panel, Tab};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, light_level};
 use meshbrush_render::colormap::LevelColors;
 use meshbrush_ui::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 
@@ -40,13 +40,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         answer
     });
     let answer = section.unwrap_or_default();
-    // The legend on the canvas lights levels, too: each takes back only what it has asked for.
-    let id = Id::unique("level that the panel of levels lights");
-    let lit: Option<u32> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    if answer.hovered != lit || (lit.is_some() && lit != state.view.lone_level) {
-        ui.data_mut(|data| data.insert_temp(id, answer.hovered));
-        commands.push(Command::from(ViewCommand::ShowLevel(answer.hovered)));
-    }
+    light_level(ui, "panel", answer.hovered, state, commands);
     commands.extend(answer.toggled.map(|level| Command::from(ViewCommand::ToggleLevel(level))));
     commands.extend(answer.isolated.map(|level| Command::from(ViewCommand::IsolateLevel(level))));
 }

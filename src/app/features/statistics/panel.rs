@@ -92,7 +92,7 @@ fn shape_rows(
     commands: &mut Vec<Command>,
 ) {
     value_row(ui, "Area", &format::area(measured.area, state.unit(), 6));
-    // Where a triangle is that a figure speaks of, others are not smaller than the shortest edge.
+    // No triangle is smaller: at this zoom, those of all figures can be seen.
     let size = statistics.shortest_edge;
     let help = "A click goes to this corner.";
     for (label, angle, place) in [
