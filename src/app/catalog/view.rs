@@ -6,7 +6,7 @@ use meshbrush_core::earth::{DegreeStyle, EarthPlane};
 use meshbrush_kit::kit::command::{Command, InterfaceScale, ShellCommand, SpaceCommand, ViewCommand};
 use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::view::{CanvasAid, FieldOverlay};
-use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Tab};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Submenu, Tab};
 use meshbrush_render::colormap::Colormap;
 use meshbrush_ui::widgets::key_menu::MENU_KEYS;
 
@@ -16,7 +16,9 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let view = state.view;
     let item = |title: &str, command| CatalogItem::new(View, title, Command::from(command));
     let aid = |title: &str, aid| item(title, ViewCommand::ToggleAid(aid));
-    let theme = |title: &str, theme| item(title, ViewCommand::Theme(theme)).checked(view.theme == theme);
+    let theme = |title: &str, theme| {
+        item(title, ViewCommand::Theme(theme)).checked(view.theme == theme).within(Submenu::Theme)
+    };
     let mut items = vec![
         item("Fit domain", ViewCommand::Fit).key(Key::Home),
         item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus).key(Key::Equals),
@@ -29,7 +31,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Graticule", CanvasAid::Graticule).checked(view.aids.graticule),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
-        aid("Legend of the levels", CanvasAid::Levels).checked(view.aids.levels).palette_only(),
+        aid("Legend of the levels", CanvasAid::Levels).checked(view.aids.levels),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
         aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause).palette_only(),
     ];
@@ -48,19 +50,21 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ]);
     items.extend(Colormap::ALL.map(|map| {
         let item = item(&format!("{} colours", map.name()), ViewCommand::Colormap(map));
-        item.checked(view.colormap == map).palette_only()
+        item.checked(view.colormap == map).within(Submenu::Colours)
     }));
     items.extend([
         theme("Dark theme", ThemePreference::Dark).group(),
         theme("Light theme", ThemePreference::Light),
         theme("Theme of the desktop", ThemePreference::System),
+    ]);
+    items.extend(scales());
+    items.extend([
         item("Panels", ViewCommand::TogglePanels).ctrl(Key::B).checked(view.panels).group(),
         item("Presentation", ViewCommand::TogglePresentation)
             .key(Key::F5)
             .checked(view.presentation.is_some()),
         CatalogItem::new(View, "Find a command…", Command::from(ShellCommand::Palette)).ctrl(Key::P),
     ]);
-    items.extend(scales());
     items.extend(parts());
     items
 }
@@ -76,14 +80,17 @@ fn coordinates(state: &FrameState<'_>) -> [CatalogItem; 3] {
             CoordinateStyle::Plane => "Places in the plane",
         };
         let item = CatalogItem::new(Menu::View, title, Command::from(ViewCommand::Coordinates(style)));
-        item.enabled(is_on_earth).checked(is_on_earth && style == state.view.coordinates).palette_only()
+        item.enabled(is_on_earth)
+            .checked(is_on_earth && style == state.view.coordinates)
+            .within(Submenu::Places)
     })
 }
 
-/// Returns what changes the size of text and controls. No menu has room for it.
+/// Returns what changes the size of text and controls.
 fn scales() -> [CatalogItem; 3] {
     let item = |title: &str, scale| {
-        CatalogItem::new(Menu::View, title, Command::from(ViewCommand::Scale(scale))).palette_only()
+        CatalogItem::new(Menu::View, title, Command::from(ViewCommand::Scale(scale)))
+            .within(Submenu::InterfaceSize)
     };
     [
         item("Larger interface", InterfaceScale::Larger).ctrl(Key::Plus).ctrl(Key::Equals),
@@ -93,28 +100,37 @@ fn scales() -> [CatalogItem; 3] {
 }
 
 /// Returns the keys that reach everything without a pointer. No menu needs them.
-fn parts() -> [CatalogItem; 3] {
+fn parts() -> Vec<CatalogItem> {
     let item =
         |title: &str, command| CatalogItem::new(Menu::View, title, Command::from(command)).palette_only();
-    [
+    // Alt with the first letter, where an earlier menu has not taken it.
+    let keys = [Key::F, Key::E, Key::T, Key::L, Key::V, Key::X, Key::M, Key::H];
+    let menus = Menu::ALL.into_iter().zip(keys).map(|((menu, name), key)| {
+        item(&format!("Open the menu {name}"), ShellCommand::OpenMenu(menu)).keys(Modifiers::ALT, key)
+    });
+    let mut items = vec![
         item("Next part of the window", ShellCommand::FocusPart(1)).key(Key::F6),
         item("Previous part of the window", ShellCommand::FocusPart(-1)).keys(Modifiers::SHIFT, Key::F6),
         item("Menu of the canvas or of the number", ShellCommand::MenuOfCanvas)
             .keys(MENU_KEYS.modifiers, MENU_KEYS.logical_key),
-    ]
+    ];
+    items.extend(menus);
+    items
 }
 
-/// Returns an entry for each overlay. Those that the menu leaves out are in the list of the panel.
+/// Returns an entry for each overlay.
 fn overlays(shown: FieldOverlay) -> impl Iterator<Item = CatalogItem> {
     FieldOverlay::ALL.iter().map(move |&overlay| {
         // The key of the overlay that is shown hides it.
         let next = if overlay == shown { FieldOverlay::None } else { overlay };
         let command = Command::from(ViewCommand::SetOverlay(next));
-        let item = CatalogItem::new(Menu::View, overlay.title(), command).checked(overlay == shown);
+        let item = CatalogItem::new(Menu::View, overlay.title(), command)
+            .checked(overlay == shown)
+            .within(Submenu::Overlay);
         match overlay {
-            FieldOverlay::Risk => item.key(Key::O).group(),
+            FieldOverlay::Risk => item.key(Key::O),
             FieldOverlay::Target => item.keys(Modifiers::SHIFT, Key::O),
-            _ => item.palette_only(),
+            _ => item,
         }
     })
 }

@@ -11,6 +11,7 @@ use super::App;
 use super::dialogs::{Dialog, fill_in_place};
 use super::features::LAYER_KINDS;
 use super::help::{missing_pictures, stop_editing_keys};
+use super::panels::ask_for_menu;
 use super::{files as file_work, parts};
 use crate::app::features::stepping::Stepping;
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
@@ -99,6 +100,7 @@ impl App {
                 self.dialogs.open(Dialog::GoTo);
             }
             ShellCommand::AskRole(file) => self.dialogs.ask_role(file),
+            ShellCommand::OpenMenu(menu) => ask_for_menu(ctx, menu),
             ShellCommand::MenuOfCanvas => {
                 self.canvas.open_menu(ctx, &self.view, &self.tools, &self.session);
             }

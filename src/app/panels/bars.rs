@@ -1,9 +1,9 @@
 //! The menu bar and the tool strip.
 
-use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
+use eframe::egui::{self, Align, Context, Id, Layout, MenuBar, Popup, Response, RichText, ScrollArea, Ui};
 
 use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, menu_item};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, menu_items};
 use meshbrush_ui::theme::{font, metrics, tokens};
 use meshbrush_ui::widgets::{Icon, ToolButton};
 
@@ -16,22 +16,40 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], co
         ui.label(RichText::new("Meshbrush").font(font::strong()).color(tokens(ui).value));
         ui.add_space(8.0);
         for (menu, name) in Menu::ALL {
-            ui.menu_button(name, |ui| {
-                ui.set_min_width(220.0);
+            let button = ui.menu_button(name, |ui| {
                 // In a small window a long menu scrolls.
                 let height = ui.ctx().content_rect().height() - HEIGHT_AROUND_MENU;
                 ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-                    for item in entries.iter().filter(|item| item.menu == menu && item.is_in_menu) {
-                        menu_item(ui, item, commands);
-                    }
+                    let items = entries.iter().filter(|item| item.menu == menu && item.is_in_menu);
+                    menu_items(ui, &items.collect::<Vec<_>>(), commands);
                 });
             });
+            open_if_asked(ui, menu, &button.response);
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let title = RichText::new(state.project.title(state.session)).color(tokens(ui).label);
             ui.add(egui::Label::new(title).truncate());
         });
     });
+}
+
+fn asked_menu_id() -> Id {
+    Id::unique("menu of the bar to open")
+}
+
+/// Opens a menu of the bar in the next frame, by its key.
+pub fn ask_for_menu(ctx: &Context, menu: Menu) {
+    ctx.data_mut(|data| data.insert_temp(asked_menu_id(), menu));
+    ctx.request_repaint();
+}
+
+/// Opens a menu if its key was pressed. Its button has the focus then, from which the arrow keys lead on.
+fn open_if_asked(ui: &Ui, menu: Menu, button: &Response) {
+    if ui.data(|data| data.get_temp::<Menu>(asked_menu_id())) == Some(menu) {
+        ui.data_mut(|data| data.remove::<Menu>(asked_menu_id()));
+        button.request_focus();
+        Popup::open_id(ui.ctx(), Popup::default_response_id(button));
+    }
 }
 
 /// A button for each tool, and below them undo, redo and fit.

@@ -1,6 +1,8 @@
 //! The docks at the right: the layers above, and below them the tabs.
 
-use eframe::egui::{self, Frame, Margin, ScrollArea, Ui, UiBuilder, vec2};
+use eframe::egui::{
+    self, Context, CursorIcon, Frame, Id, Margin, Rect, ScrollArea, Sense, Stroke, Ui, UiBuilder, vec2,
+};
 
 use super::sections;
 use crate::app::features::report::Report;
@@ -18,28 +20,83 @@ const LEAST_CANVAS: f32 = 400.0;
 const LEAST_UPPER: f32 = 120.0;
 const LEAST_LOWER: f32 = 200.0;
 /// Share of the height that the upper dock has at first.
-const UPPER_SHARE: f32 = 0.46;
+const UPPER_SHARE: f32 = 0.5;
+/// How far from a divider the pointer takes hold of it, in points.
+const REACH: f32 = 4.0;
 
-/// Shows both docks. Their sizes can be changed, and egui's memory keeps them over restarts.
+/// What a person chose by dragging a divider: the width of the docks in points, or the share of the upper
+/// one. A window with less room shows less, and forgets nothing: the choice is there again with the room.
+/// egui's memory keeps it over restarts.
+struct Split {
+    id: &'static str,
+    default: f32,
+}
+
+impl Split {
+    const WIDTH: Self = Self { id: "width of the docks", default: metrics::PANEL_WIDTH };
+    const SHARE: Self = Self { id: "share of the upper dock", default: UPPER_SHARE };
+
+    fn chosen(&self, ctx: &Context) -> f32 {
+        ctx.data_mut(|data| data.get_persisted(Id::unique(self.id))).unwrap_or(self.default)
+    }
+
+    fn choose(&self, ctx: &Context, value: f32) {
+        ctx.data_mut(|data| data.insert_persisted(Id::unique(self.id), value));
+    }
+}
+
+/// Shows both docks.
+///
+/// ```text
+///  canvas ‖ upper dock: layers
+///         ‖ ══════════ divider
+///         ‖ lower dock: tabs
+///   divider
+/// ```
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let t = *tokens(ui);
     let widest = (ui.available_width() - LEAST_CANVAS).clamp(*WIDTHS.start(), *WIDTHS.end());
-    egui::Panel::right("docks")
-        .frame(Frame::new().fill(t.panel))
-        .default_size(metrics::PANEL_WIDTH)
-        .size_range(*WIDTHS.start()..=widest)
+    let width = Split::WIDTH.chosen(ui.ctx()).clamp(*WIDTHS.start(), widest);
+    let shown = egui::Panel::right("docks")
+        .frame(Frame::new().fill(tokens(ui).panel))
+        .resizable(false)
+        .exact_size(width)
         .show(ui, |ui| {
             let height = ui.available_height();
             let tallest = (height - LEAST_LOWER).max(LEAST_UPPER);
-            let default = UPPER_SHARE * height;
+            let upper = (Split::SHARE.chosen(ui.ctx()) * height).round().clamp(LEAST_UPPER, tallest);
+            let dock = ui.max_rect();
             egui::Panel::top("layers")
-                .frame(Frame::new().fill(t.panel).inner_margin(margin()))
-                .resizable(true)
-                .default_size((default / metrics::GRID).round() * metrics::GRID)
-                .size_range(LEAST_UPPER..=tallest)
+                .frame(Frame::new().fill(tokens(ui).panel).inner_margin(margin()))
+                .resizable(false)
+                .exact_size(upper)
                 .show(ui, |ui| upper_dock(ui, state, commands));
             lower_dock(ui, state, commands);
+            let line = dock.with_min_y(dock.top() + upper).with_max_y(dock.top() + upper);
+            if let Some(y) = divider(ui, line).map(|at| at.y) {
+                let height_chosen = (y - dock.top()).clamp(LEAST_UPPER, tallest);
+                Split::SHARE.choose(ui.ctx(), height_chosen / height);
+            }
         });
+    let dock = shown.response.rect;
+    if let Some(x) = divider(ui, dock.with_max_x(dock.left())).map(|at| at.x) {
+        Split::WIDTH.choose(ui.ctx(), (dock.right() - x).clamp(*WIDTHS.start(), widest));
+    }
+}
+
+/// Takes hold of a divider, a vertical or a horizontal line. Returns where it is dragged to.
+fn divider(ui: &Ui, line: Rect) -> Option<egui::Pos2> {
+    let is_vertical = line.width() == 0.0;
+    let (around, icon) = match is_vertical {
+        true => (line.expand2(vec2(REACH, 0.0)), CursorIcon::ResizeHorizontal),
+        false => (line.expand2(vec2(0.0, REACH)), CursorIcon::ResizeVertical),
+    };
+    let response = ui.interact(around, ui.scope_id().with(("divider", is_vertical)), Sense::drag());
+    if response.hovered() || response.dragged() {
+        ui.ctx().set_cursor_icon(icon);
+        let stroke = Stroke::new(1.5, tokens(ui).accent);
+        ui.ctx().layer_painter(ui.layer_id()).line_segment([line.left_top(), line.right_bottom()], stroke);
+    }
+    response.interact_pointer_pos().filter(|_| response.dragged())
 }
 
 fn margin() -> Margin {

@@ -20,6 +20,8 @@ mod status;
 mod strip;
 mod view;
 
+pub use bars::ask_for_menu;
+
 use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
 use super::features::{ROWS, report, stepping};

@@ -7,6 +7,7 @@ mod background;
 mod budget;
 mod celtic_sea;
 mod commands;
+mod cut_controls;
 mod derivation;
 mod docks;
 mod file_dialog;

@@ -12,6 +12,7 @@ mod follower;
 mod following;
 mod history;
 mod idle_layers;
+mod layer_extent;
 mod layer_titles;
 mod layers;
 mod outline;

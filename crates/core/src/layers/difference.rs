@@ -91,6 +91,13 @@ impl SizeFieldSpec {
     }
 }
 
+impl SizeFieldSpec {
+    /// Returns where a layer of the stack can ask for something that matters to a mesh, in world units.
+    pub(crate) fn extent_of(&self, layer: &Layer, circumstances: &Circumstances) -> Extent {
+        circumstances.extents(self).of(layer)
+    }
+}
+
 impl<'a> Circumstances<'a> {
     fn extents(&self, spec: &'a SizeFieldSpec) -> StackExtents<'a> {
         let Self { paint, longest, greatest_scale, outline_areas: _ } = *self;

@@ -59,6 +59,45 @@ impl Menu {
     ];
 }
 
+/// A menu within a menu, for entries of one sort. It keeps the menu around it short.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Submenu {
+    /// Each way to add a layer.
+    AddLayer,
+    /// How the selected layer combines with those below it.
+    Combine,
+    /// What colours the triangles on the canvas.
+    Overlay,
+    /// The colours of values.
+    Colours,
+    /// How places are written.
+    Places,
+    /// Light or dark.
+    Theme,
+    /// The size of text and controls.
+    InterfaceSize,
+}
+
+impl Submenu {
+    /// Returns the title, as the menu around it shows it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::AddLayer => "Add layer",
+            Self::Combine => "Combine",
+            Self::Overlay => "Overlay",
+            Self::Colours => "Colours",
+            Self::Places => "Places",
+            Self::Theme => "Theme",
+            Self::InterfaceSize => "Interface size",
+        }
+    }
+
+    /// Returns the title of an entry within this menu: without the words that the menu says already.
+    pub fn title_within(self, title: &str) -> &str {
+        title.strip_prefix(self.title()).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(title)
+    }
+}
+
 /// A command with its title, its menu and its key.
 #[derive(Clone, Debug)]
 pub struct CatalogItem {
@@ -67,6 +106,8 @@ pub struct CatalogItem {
     pub id: String,
     /// The menu of the entry.
     pub menu: Menu,
+    /// The menu within that menu, if it is in one.
+    pub submenu: Option<Submenu>,
     /// The title in menus and in the palette.
     pub title: String,
     /// The keys that run it; the first one is shown.
@@ -100,6 +141,7 @@ impl CatalogItem {
         Self {
             id: id_of(&title),
             menu,
+            submenu: None,
             title,
             shortcuts: Vec::new(),
             default_shortcuts: Vec::new(),
@@ -207,7 +249,13 @@ impl CatalogItem {
         self
     }
 
-    /// Adds a separator above the entry.
+    /// Puts the entry into a menu within its menu, beside the entries before and after it that are there too.
+    pub fn within(mut self, submenu: Submenu) -> Self {
+        self.submenu = Some(submenu);
+        self
+    }
+
+    /// Adds a separator above the entry, or above the menu within the menu that begins with it.
     pub fn group(mut self) -> Self {
         self.begins_group = true;
         self

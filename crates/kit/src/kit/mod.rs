@@ -75,7 +75,7 @@ pub use data_file::{DataContents, DataFile, Preview, RasterFacts, look_at, seen_
 pub use data_role::DataRole;
 pub use drawing::{DrawingCommands, press_brush, press_corner};
 pub use empty_document::{EmptyDocument, raster_frame, show_over_extent, show_with_layer, with_space_around};
-pub use entry::{CatalogItem, DIGITS, Menu, NOT_QUERYING, QUERYING};
+pub use entry::{CatalogItem, DIGITS, Menu, NOT_QUERYING, QUERYING, Submenu};
 pub use feature::{Feature, Row};
 pub use features::{Features, all_tools, kinds_of_layers};
 pub use file_kind::{FileAct, FileKind, FileRequest};
@@ -88,7 +88,7 @@ pub use keymap::{Keymap, conflicts, owners};
 pub use layer_kind::{Addition, LayerKindRow, LayerKinds, add_layer, range_rows, set_kind, set_kind_once};
 pub use level_light::light_level;
 pub use mask_file::with_mask;
-pub use menu_item::menu_item;
+pub use menu_item::{MENU_WIDTH, menu_item, menu_items};
 pub use name_field::name_field;
 pub use panel::{Panel, button_rows, end_gesture_when_released, remark, set_once};
 pub use place::DockPlace;

@@ -29,16 +29,16 @@ impl Panel {
     }
 }
 
-/// Rows of buttons: name, whether it is enabled, and the command that it sends.
+/// Rows of buttons: name, whether it is enabled, and the command that it sends. A row that has no room goes on
+/// in the next line.
 pub fn button_rows<Row, C>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<C>)
 where
     Row: IntoIterator<Item = (&'static str, bool, C)>,
 {
     for row in rows {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             for (name, enabled, command) in row {
-                let button = ActionButton::new(name);
-                if ui.add_enabled_ui(enabled, |ui| ui.add(button)).inner.clicked() {
+                if ui.add_enabled(enabled, ActionButton::new(name)).clicked() {
                     commands.push(command);
                 }
             }

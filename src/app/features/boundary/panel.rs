@@ -9,7 +9,7 @@ use meshbrush_core::domain::{BoundaryPieces, BoundaryType};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::settings::SavedOpen;
 use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
-use meshbrush_kit::kit::{FrameState, Panel, Tab, remark, set_once};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark, set_once};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::{
     ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
@@ -58,14 +58,11 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(8.0);
     remark(ui, "Open in one step where the sea goes on. Islands stay land.");
-    ui.horizontal(|ui| {
-        if ui.add(ActionButton::new("Along the frame")).clicked() {
-            commands.push(Command::from(BoundaryCommand::Open(SavedOpen::Frame)));
-        }
-        if ui.add(ActionButton::new("In polygons…")).clicked() {
-            commands.push(Command::from(FileCommand::Ask(&OPEN_IN_POLYGONS)));
-        }
-    });
+    let row = [
+        ("Along the frame", true, Command::from(BoundaryCommand::Open(SavedOpen::Frame))),
+        ("In polygons…", true, Command::from(FileCommand::Ask(&OPEN_IN_POLYGONS))),
+    ];
+    button_rows(ui, [row], commands);
     ui.add_space(4.0);
     let mut level = state.tools.settings::<BoundaryTool>().level;
     let row = NumberRow::new("Deeper than", &mut level).range(f64::MIN..=f64::MAX).unit("m");

@@ -6,7 +6,9 @@ use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
-use meshbrush_kit::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
+use meshbrush_kit::kit::{
+    FormulaRow, FrameState, Panel, Tab, button_rows, end_gesture_when_released, remark, set_once,
+};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts};
 use meshbrush_mesh::text::LengthUnit;
@@ -188,14 +190,11 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
 
 fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
-    ui.horizontal(|ui| {
-        if ui.add(ActionButton::new("Open domain…")).clicked() {
-            commands.push(Command::from(FileCommand::Ask(&OPEN_DOMAIN)));
-        }
-        if ui.add(ActionButton::new("Add outline…")).clicked() {
-            commands.push(Command::from(FileCommand::Ask(&ADD_OUTLINE)));
-        }
-    });
+    let row = [
+        ("Open domain…", true, Command::from(FileCommand::Ask(&OPEN_DOMAIN))),
+        ("Add outline…", true, Command::from(FileCommand::Ask(&ADD_OUTLINE))),
+    ];
+    button_rows(ui, [row], commands);
     let domain = &state.session.document().settings().domain;
     let whole = Domain { projection: domain.projection, ..Domain::rectangle(domain.bounds) };
     let button = ActionButton::new("Whole rectangle");

@@ -2,10 +2,11 @@
 
 use eframe::egui::{Key, Modifiers};
 
+use super::EXPORT_GRID;
 use super::selected::combine_name;
 use meshbrush_core::layers::{Combine, Layer, LayerId};
-use meshbrush_kit::kit::command::{Command, LayerCommand};
-use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
+use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING, Submenu};
 
 /// Returns the stack of layers, and the selected one.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -21,17 +22,12 @@ fn item(title: impl Into<String>, command: LayerCommand) -> CatalogItem {
     CatalogItem::new(Menu::Layer, title, Command::from(command))
 }
 
-/// Kinds of layers that the menu adds.
-const MOST_ADDITIONS: usize = 9;
-
 /// Returns the commands that add a layer, for each kind.
 fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let additions = state.layer_kinds.iter().flat_map(|kind| kind.additions);
     let items = additions.enumerate().map(|(i, addition)| {
         let title = format!("Add layer: {}", addition.title);
-        // The button below the list of layers has all.
-        let item =
-            CatalogItem::new(Menu::Layer, title, (addition.command)(state)).in_menu(i < MOST_ADDITIONS);
+        let item = CatalogItem::new(Menu::Layer, title, (addition.command)(state)).within(Submenu::AddLayer);
         if i == 0 { item.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::N) } else { item }
     });
     items.collect()
@@ -57,16 +53,23 @@ fn selected_layer(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .keys(Modifiers::SHIFT, Key::H)
             .checked(visible),
         item("Layer is locked", LayerCommand::Lock(id, !locked)).checked(locked),
+        item("Show only the selected layer", LayerCommand::Solo(id)),
+        item("Zoom to the selected layer", LayerCommand::ZoomTo(id)),
         item("Clear the selected layer", LayerCommand::Clear(id)),
+        CatalogItem::new(
+            Menu::Layer,
+            "Export the selected layer as a grid…",
+            Command::from(FileCommand::Ask(&EXPORT_GRID)),
+        ),
     ];
     for item in &mut items {
         item.enabled = layer.is_some();
     }
     // A locked layer keeps what it has.
     items[1].enabled = is(|layer| !layer.locked);
-    items[5].enabled = is(|layer| !layer.locked && layer.paints().is_some());
+    items[7].enabled = is(|layer| !layer.locked && layer.paints().is_some());
     let combines = Combine::ALL.map(|mode| combine(mode, combine_name(mode)));
-    items.extend(combines.map(CatalogItem::palette_only));
+    items.extend(combines.map(|item| item.within(Submenu::Combine)));
     items
 }
 

@@ -2,11 +2,12 @@
 
 use super::kinds::kind_of;
 use super::{
-    GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load, marks,
+    GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, grid, list, load,
+    marks,
 };
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayer};
-use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
+use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, ViewCommand};
 use meshbrush_kit::kit::layer_edits::unused_name;
 use meshbrush_kit::kit::tools::PaintKind;
 use meshbrush_kit::kit::{Ctx, Feature, Row};
@@ -46,6 +47,14 @@ impl Feature for LayerEditor {
             }
             LayerCommand::Rename(id, name) => edit_layer_once(id, |layer| layer.name = name, ctx),
             LayerCommand::Show(id, visible) => edit_layer_once(id, |layer| layer.visible = visible, ctx),
+            LayerCommand::Solo(id) => ctx.session.edit_layers_once(|layers| show_alone(layers, id)),
+            LayerCommand::ZoomTo(id) => zoom_to(id, ctx),
+            LayerCommand::ExportGridAs(path) => {
+                let path = if path.extension().is_none() { path.with_extension("asc") } else { path };
+                let export = |path| Command::from(LayerCommand::ExportGrid(path));
+                ctx.commands.extend(ctx.project.save_table_as(path, export));
+            }
+            LayerCommand::ExportGrid(path) => grid::export(ctx.session, ctx.background, &path),
             LayerCommand::Lock(id, locked) => edit_layer_once(id, |layer| layer.locked = locked, ctx),
             LayerCommand::Combine(id, combine) => edit_layer_once(id, |layer| layer.combine = combine, ctx),
             LayerCommand::SetKind(id, kind) => ctx.session.set_layer_kind(id, *kind),
@@ -163,6 +172,27 @@ fn edit_layer_once(id: LayerId, edit: impl FnOnce(&mut Layer), ctx: &mut Ctx<'_>
 fn edit_layer(layers: &mut [Layer], id: LayerId, edit: impl FnOnce(&mut Layer)) {
     if let Some(layer) = layers.iter_mut().find(|layer| layer.id == id) {
         edit(layer);
+    }
+}
+
+/// Shows one layer alone, or all where it is alone already.
+fn show_alone(layers: &mut [Layer], id: LayerId) {
+    let is_alone = layers.iter().all(|layer| layer.visible == (layer.id == id));
+    for layer in layers {
+        layer.visible = is_alone || layer.id == id;
+    }
+}
+
+/// Shows where a layer asks for something, or says that it does so nowhere.
+fn zoom_to(id: LayerId, ctx: &mut Ctx<'_>) {
+    let document = ctx.session.document();
+    let Some(layer) = document.settings().layer(id) else { return };
+    match document.layer_extent(id) {
+        Some(area) => ctx.send(Command::from(ViewCommand::ShowArea(area))),
+        None => {
+            let news = format!("The layer “{}” asks for nothing in this domain yet.", layer.name);
+            ctx.session.notices_mut().tell(news);
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use meshbrush_io::io::{RasterFormat, shape_format};
 use meshbrush_kit::kit::command::{Command, LayerCommand};
-use meshbrush_kit::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
+use meshbrush_kit::kit::{DataContents, DataFile, DataRole, FileAct, FileKind, FrameState};
 
 fn raster_endings() -> Vec<&'static str> {
     RasterFormat::all().flat_map(RasterFormat::endings).copied().collect()
@@ -16,6 +16,18 @@ fn grid_endings() -> Vec<&'static str> {
 fn shape_and_table_endings() -> Vec<&'static str> {
     shape_format::endings().into_iter().chain(["csv"]).collect()
 }
+
+/// What a layer asks for, as a grid.
+pub static EXPORT_GRID: FileKind = FileKind {
+    title: "Export the layer as a grid",
+    act: FileAct::Export,
+    endings: || vec!["asc"],
+    contents: "Grids",
+    folder: "exports",
+    suffix: " layer",
+    command_after_browsing: |path| Command::from(LayerCommand::ExportGrid(path)),
+    ..FileKind::new(|path| Command::from(LayerCommand::ExportGridAs(path)))
+};
 
 /// A picture or a grid as risk.
 pub static OPEN_RISK: FileKind = FileKind {

@@ -4,6 +4,7 @@ use eframe::egui::{Context, CursorIcon, Id, Rect, Response, ScrollArea, Ui, pos2
 
 use super::kinds::kind_of;
 use super::pictures::layer_color32;
+use super::row_menu;
 use super::selected::combine_name;
 use crate::app::features::layers::LayerEditor;
 use meshbrush_core::layers::{Layer, LayerId};
@@ -12,8 +13,8 @@ use meshbrush_kit::kit::command::{Command, LayerCommand};
 use meshbrush_ui::theme::tokens;
 use meshbrush_ui::widgets::{LayerRow, LayerRowAnswer};
 
-/// Rows that are in sight at least; more scroll.
-const LEAST_ROWS: f32 = 2.5;
+/// Rows that are in sight at least; more scroll. The half row says so.
+const LEAST_ROWS: f32 = 3.5;
 
 /// A name that is being typed, in egui's memory.
 #[derive(Clone, Debug)]
@@ -76,11 +77,13 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
         begins_typing: new_name.as_ref().is_some_and(|new_name| !new_name.is_shown),
     };
     let (response, answer) = row.show(ui, new_name.as_mut().map(|new_name| &mut new_name.text));
+    row_menu::show(ui, state, layer, &response, commands);
     if let Some(new_name) = new_name {
         let name = new_name.keep(ui, answer).filter(|name| !name.is_empty() && *name != layer.name);
         commands.extend(name.map(|name| Command::from(LayerCommand::Rename(layer.id, name))));
     }
     let command = match answer {
+        _ if response.secondary_clicked() => LayerCommand::Select(layer.id),
         LayerRowAnswer::Selected => LayerCommand::Select(layer.id),
         LayerRowAnswer::AsksName => LayerCommand::AskName(layer.id),
         LayerRowAnswer::Shown(visible) => LayerCommand::Show(layer.id, visible),

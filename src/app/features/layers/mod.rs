@@ -5,6 +5,7 @@ mod entries;
 mod execute;
 mod files;
 mod gradation;
+mod grid;
 mod ground;
 mod kinds;
 mod list;
@@ -12,13 +13,16 @@ mod load;
 mod marks;
 mod panel;
 mod pictures;
+mod row_menu;
 mod selected;
 mod surface_fit;
 #[cfg(test)]
 pub mod tests;
 mod transfer;
 
-use files::{OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, OPEN_SURFACE, REPLACE_SHAPES, ROLES};
+use files::{
+    EXPORT_GRID, OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, OPEN_SURFACE, REPLACE_SHAPES, ROLES,
+};
 pub use files::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use gradation::GRADATION;
 use kinds::KINDS;

@@ -149,6 +149,17 @@ impl LayerPicture {
     }
 }
 
+/// Returns the field of a layer alone: what it asks for, and infinity where that is nothing.
+pub fn field_of(layer: &Layer, settings: &Settings) -> SizeFieldSpec {
+    let alone = Layer { visible: true, combine: Combine::Finest, ..settings.field_layer(layer) };
+    SizeFieldSpec {
+        layers: [depths_for(layer, settings), vec![alone]].concat(),
+        unasked: f64::INFINITY,
+        gradation: None,
+        ..settings.field_spec()
+    }
+}
+
 /// Returns the work that draws what a layer alone asks for, in the colours of the levels; transparent where
 /// it asks for nothing. `None` while the settings have no mesh.
 fn picture_of(
@@ -158,13 +169,7 @@ fn picture_of(
 ) -> Option<impl FnOnce() -> ColorImage + Send + 'static> {
     let settings = document.settings();
     let lattice = settings.lattice().ok()?;
-    let alone = Layer { visible: true, combine: Combine::Finest, ..settings.field_layer(layer) };
-    let spec = SizeFieldSpec {
-        layers: [depths_for(layer, settings), vec![alone]].concat(),
-        unasked: f64::INFINITY,
-        gradation: None,
-        ..settings.field_spec()
-    };
+    let spec = field_of(layer, settings);
     let (bounds, paint) = (settings.domain.bounds, document.paint().clone());
     Some(move || {
         let size = bounds.size() / bounds.size().max_element() * LONGER_SIDE;

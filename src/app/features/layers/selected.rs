@@ -7,8 +7,8 @@ use super::kinds::kind_of;
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use meshbrush_core::layers::{Combine, Layer, Surface};
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
-use meshbrush_kit::kit::{FrameState, area_text, remark};
-use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, segmented};
+use meshbrush_kit::kit::{FrameState, area_text, button_rows, remark};
+use meshbrush_ui::widgets::{Section, ValueRow, segmented};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";
@@ -58,16 +58,10 @@ fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut 
     let area = layer.mask.as_ref().map_or_else(|| "none".to_owned(), |mask| area_text(ui, state, mask, 6));
     let help = "Area of the polygons in which the layer counts; without a mask it counts everywhere.";
     ValueRow::new("Mask", &area).help(help).show(ui);
-    ui.horizontal(|ui| {
-        if ui.add(ActionButton::new("Draw mask")).clicked() {
-            commands.push(Command::from(RegionCommand::Target(RegionTarget::Mask)));
-        }
-        if ui.add(ActionButton::new("Mask from file…")).clicked() {
-            commands.push(Command::from(FileCommand::Ask(&OPEN_MASK)));
-        }
-        let remove = ActionButton::new("Remove mask");
-        if ui.add_enabled_ui(layer.mask.is_some(), |ui| ui.add(remove)).inner.clicked() {
-            commands.push(Command::from(LayerCommand::Mask(layer.id, None)));
-        }
-    });
+    let row = [
+        ("Draw mask", true, Command::from(RegionCommand::Target(RegionTarget::Mask))),
+        ("Mask from file…", true, Command::from(FileCommand::Ask(&OPEN_MASK))),
+        ("Remove mask", layer.mask.is_some(), Command::from(LayerCommand::Mask(layer.id, None))),
+    ];
+    button_rows(ui, [row], commands);
 }

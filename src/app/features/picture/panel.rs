@@ -7,7 +7,7 @@ use super::OPEN_PICTURE;
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ViewCommand};
 use meshbrush_kit::kit::view::CanvasAid;
-use meshbrush_kit::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, end_gesture_when_released, remark, set_once};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 
@@ -65,17 +65,12 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, background: &Background, commands: 
 
 fn buttons(ui: &mut Ui, domain: Rect, background: &Background, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
-    ui.horizontal(|ui| {
-        if ui
-            .add_enabled_ui(background.bounds != domain, |ui| ui.add(ActionButton::new("Cover the domain")))
-            .inner
-            .clicked()
-        {
-            let covering = Background { bounds: domain, ..background.clone() };
-            set_once(Setting::Background(Some(covering)), commands);
-        }
-        if ui.add(ActionButton::new("Remove picture")).clicked() {
-            set_once(Setting::Background(None), commands);
-        }
-    });
+    let covering = Setting::Background(Some(Background { bounds: domain, ..background.clone() }));
+    let row = [
+        ("Cover the domain", background.bounds != domain, covering),
+        ("Remove picture", true, Setting::Background(None)),
+    ];
+    let mut chosen = Vec::new();
+    button_rows(ui, [row], &mut chosen);
+    chosen.into_iter().for_each(|setting| set_once(setting, commands));
 }

@@ -25,6 +25,10 @@ pub enum LayerCommand {
     Rename(LayerId, String),
     /// Shows or hides a layer.
     Show(LayerId, bool),
+    /// Shows one layer alone. Where it is alone already, shows all.
+    Solo(LayerId),
+    /// Shows the area in which a layer asks for something, as large as it fits.
+    ZoomTo(LayerId),
     /// Locks or unlocks a layer.
     Lock(LayerId, bool),
     /// Chooses how a layer is combined with those below it.
@@ -48,6 +52,10 @@ pub enum LayerCommand {
     OpenDiameters(PathBuf),
     /// Reads a picture or a grid, and adds a band of its values.
     OpenBand(PathBuf),
+    /// Writes what the selected layer asks for, as a grid, and asks before a file is replaced.
+    ExportGridAs(PathBuf),
+    /// Writes what the selected layer asks for, as a grid.
+    ExportGrid(PathBuf),
     /// Measures how far the mesh is from surfaces.
     MeasureSurface,
     /// Reads a picture or a grid, and adds it as a surface that the mesh is to be close to.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{Command, CommandSet, HelpTopic};
-use crate::kit::{DataFile, Keymap, Tool};
+use crate::kit::{DataFile, Keymap, Menu, Tool};
 
 /// One thing to do with tools, dialogs, help and messages.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +44,8 @@ pub enum ShellCommand {
     DismissNotice,
     /// Moves the focus by so many parts of the window: menus, tools, canvas, panel, status bar.
     FocusPart(i32),
+    /// Opens a menu of the bar.
+    OpenMenu(Menu),
     /// Opens the menu for a point of the canvas: that under the pointer, or the middle.
     MenuOfCanvas,
     /// Changes the keys of entries.

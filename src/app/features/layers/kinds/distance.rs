@@ -8,8 +8,10 @@ use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryType, PieceChoice};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind};
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
-use meshbrush_kit::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
-use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
+use meshbrush_kit::kit::{
+    Addition, FrameState, LayerKindRow, add_layer, button_rows, range_rows, remark, set_kind_once,
+};
+use meshbrush_ui::widgets::{Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 
 /// The distance to shapes or to the outline of the domain.
 pub static DISTANCE: LayerKindRow = LayerKindRow {
@@ -149,19 +151,13 @@ fn open_boundary_row(
 
 /// Shows buttons that choose the target of the distance.
 fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Vec<Command>) {
-    ui.horizontal(|ui| {
-        let draw = ActionButton::new("Draw shapes");
-        if ui.add_enabled_ui(to.shapes().is_some(), |ui| ui.add(draw)).inner.clicked() {
-            commands.push(draw_shapes());
-        }
-        if ui.add(ActionButton::new("Open shapes…")).clicked() {
-            commands.push(Command::from(FileCommand::Ask(&REPLACE_SHAPES)));
-        }
-        let is_shapes = to.shapes().is_some();
-        let outline = ActionButton::new("Use outline");
-        if ui.add_enabled_ui(is_shapes, |ui| ui.add(outline)).inner.clicked() {
-            commands.push(Command::from(LayerCommand::MeasureTo(layer.id, DistanceTo::Outline)));
-        }
-    });
+    let is_shapes = to.shapes().is_some();
+    let outline = Command::from(LayerCommand::MeasureTo(layer.id, DistanceTo::Outline));
+    let row = [
+        ("Draw shapes", is_shapes, draw_shapes()),
+        ("Open shapes…", true, Command::from(FileCommand::Ask(&REPLACE_SHAPES))),
+        ("Use outline", is_shapes, outline),
+    ];
+    button_rows(ui, [row], commands);
     ui.add_space(4.0);
 }
