@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, pos2, vec2};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
 
 use super::{
     FREE, Window, choose, click, key, open_menu, painted_texts, selected, value_of, wheel, window, window_of,
 };
 use crate::app::catalog::PLACES;
 use crate::app::features::inspection::QUERY;
+use meshbrush_kit::kit::Submenu;
 
 #[test]
 fn the_palette_finds_and_runs_a_command() {
@@ -25,6 +26,42 @@ fn the_palette_finds_and_runs_a_command() {
     assert!(window.query_by_label("Command").is_some());
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(window.query_by_label("Command").is_none());
+}
+
+#[test]
+fn alt_and_a_letter_open_a_menu_and_arrows_lead_into_it() {
+    let mut window = window();
+    for (letter, entry) in
+        [(Key::F, "New…"), (Key::V, "Zoom in"), (Key::L, "Delete layer"), (Key::X, "Aegean")]
+    {
+        key(&mut window, Modifiers::ALT, letter);
+        assert!(window.query_all_by_label_contains(entry).next().is_some(), "{letter:?} shows {entry}");
+        key(&mut window, Modifiers::NONE, Key::ArrowDown);
+        let focused = window.query_all(By::new()).find(|node| node.accesskit_node().is_focused());
+        let focused = focused.and_then(|node| node.accesskit_node().label()).expect("a focused entry");
+        assert!(!["File", "View", "Layer", "Examples"].contains(&&*focused), "{letter:?} leads to {focused}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
+}
+
+#[test]
+fn a_menu_within_a_menu_has_every_kind_of_layer_and_every_overlay() {
+    let mut window = window();
+    for (menu, within, entries) in [
+        ("Layer", "Add layer", ["paint, as risk", "distance to the outline"]),
+        ("View", "Overlay", ["Risk", "Which layer"]),
+    ] {
+        open_menu(&mut window, menu);
+        let buttons = window.get_all_by_role_and_label(Role::Button, within);
+        buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap().click();
+        window.run();
+        for entry in entries {
+            let shown = window.query_all_by_label_contains(entry).next();
+            assert!(shown.is_some(), "{menu}, {within} has {entry}");
+        }
+        key(&mut window, Modifiers::NONE, Key::Escape);
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
 }
 
 #[test]
@@ -71,8 +108,11 @@ fn every_entry_of_a_menu_is_in_the_palette() {
     }
     // The label of an entry ends with its key.
     let names = |entry: &str, title: &str| entry == title || entry.starts_with(&format!("{title} "));
-    let unknown: Vec<_> =
-        menus.iter().filter(|entry| !palette.iter().any(|title| names(entry, title))).collect();
+    let is_submenu = |entry: &&String| Submenu::ALL.iter().any(|submenu| entry.starts_with(submenu.title()));
+    let unknown: Vec<_> = menus
+        .iter()
+        .filter(|entry| !is_submenu(entry) && !palette.iter().any(|title| names(entry, title)))
+        .collect();
     assert!(unknown.is_empty(), "not in the palette: {unknown:?}");
     for entry in
         ["Undo Ctrl+Z", "Redo Ctrl+Shift+Z", "Larger brush I", "Delete layer Shift+Delete", "Fit domain Home"]

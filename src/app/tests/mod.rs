@@ -37,6 +37,7 @@ pub mod pictures;
 mod places;
 mod presentation;
 mod project;
+mod reading_order;
 mod recipes;
 mod settings;
 mod shapes;

@@ -79,6 +79,17 @@ pub enum Submenu {
 }
 
 impl Submenu {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::AddLayer,
+        Self::Combine,
+        Self::Overlay,
+        Self::Colours,
+        Self::Places,
+        Self::Theme,
+        Self::InterfaceSize,
+    ];
+
     /// Returns the title, as the menu around it shows it.
     pub fn title(self) -> &'static str {
         match self {

@@ -400,6 +400,10 @@ pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOn
     }
     let text = &*with_keys(ui.ctx(), text);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(text));
+    // A dialog that has opened since covers the control.
+    if !ui.memory(|memory| memory.allows_interaction(response.layer_id)) {
+        return response;
+    }
     let mut tooltip = Tooltip::for_enabled(&response);
     if let Some((beside, align)) = place(ui.clip_rect(), ui.ctx().content_rect(), response.rect) {
         tooltip.popup = tooltip.popup.anchor(beside).align(align).gap(8.0);

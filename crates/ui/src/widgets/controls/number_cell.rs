@@ -1,5 +1,7 @@
 //! A number that is typed, dragged or turned by the wheel.
 
+use std::time::Duration;
+
 use egui::text::CCursorRange;
 use egui::{
     self, Align, Align2, Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, Role, Sense,
@@ -18,6 +20,9 @@ use meshbrush_mesh::text::{LengthUnit, typed};
 
 /// Seconds after the last turn of the wheel until its value is taken, so that a turn is one gesture.
 const WHEEL_REST: f64 = 0.25;
+/// Seconds after which a remark goes away by itself, and those that it stays at least.
+const REMARK_SECONDS: f64 = 12.0;
+const LEAST_REMARK_SECONDS: f64 = 0.5;
 /// Points of a wheel event that are one step of the wheel.
 const WHEEL_PX: f32 = 40.0;
 
@@ -47,11 +52,13 @@ pub(super) struct NumberCell<'a> {
     pub live: bool,
 }
 
-/// A sentence about what was typed, in egui's memory. It goes away when the value changes.
+/// A sentence about what was typed, in egui's memory. It goes away when the value changes, or a person goes on.
 #[derive(Clone, Debug)]
 struct Remark {
     text: String,
     value: f64,
+    /// When it was said, in seconds of egui's clock.
+    since: f64,
 }
 
 /// A value that is being dragged or turned, in egui's memory.
@@ -110,21 +117,29 @@ impl NumberCell<'_> {
         ui.memory(|memory| memory.has_focus(self.id))
     }
 
-    /// Shows the sentence about what was typed last, as long as the number is still `value`.
+    /// Shows the sentence about what was typed last, as long as the number is still `value`, until a person
+    /// goes on with something else, and for some seconds at most.
     pub fn show_remark(ui: &Ui, id: Id, place: Rect, value: f64) {
-        let id = id.with("remark");
-        let Some(remark) = ui.data(|data| data.get_temp::<Remark>(id)) else { return };
-        if remark.value == value {
-            message(ui, id, place, &remark.text);
-        } else {
-            ui.data_mut(|data| data.remove::<Remark>(id));
+        let remark_id = id.with("remark");
+        let Some(remark) = ui.data(|data| data.get_temp::<Remark>(remark_id)) else { return };
+        let is_typed = ui.memory(|memory| memory.has_focus(id));
+        let (age, goes_on) = ui.input(|input| (input.time - remark.since, input.pointer.any_pressed()));
+        let is_over = !is_typed && (age > REMARK_SECONDS || (goes_on && age > LEAST_REMARK_SECONDS));
+        if remark.value != value || is_over {
+            return ui.data_mut(|data| data.remove::<Remark>(remark_id));
         }
+        message(ui, remark_id, place, &remark.text);
+        let left = Duration::from_secs_f64((REMARK_SECONDS - age).max(0.0) + 0.1);
+        ui.ctx().request_repaint_after(left);
     }
 
     fn keep_remark(&self, ui: &Ui, remark: Option<String>, value: f64) {
         let id = self.id.with("remark");
         match remark {
-            Some(text) => drop(ui.data_mut(|data| data.insert_temp(id, Remark { text, value }))),
+            Some(text) => {
+                let since = ui.input(|input| input.time);
+                ui.data_mut(|data| data.insert_temp(id, Remark { text, value, since }));
+            }
             None => ui.data_mut(|data| data.remove::<Remark>(id)),
         }
     }

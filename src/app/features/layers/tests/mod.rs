@@ -3,5 +3,6 @@
 mod data;
 mod depth;
 mod ground;
+mod row_menu;
 pub mod stack;
 mod surface;
