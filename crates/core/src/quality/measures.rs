@@ -1,6 +1,7 @@
 //! The numbers by which triangles are judged.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use crate::earth::Ground;
 use crate::layers::{EdgeTimes, LevelCache, PaintLayers, SizeField};
@@ -102,6 +103,13 @@ impl<'a> TriangleMeasures<'a> {
             QualityMeasure::TimeStep => self.time_step(triangle, self.edges(triangle)),
             QualityMeasure::Valence => None,
         }
+    }
+
+    /// Returns the least time step of all triangles, in seconds; `None` where none has one.
+    pub fn least_time_step(&self) -> Option<f64> {
+        let all = (0..self.mesh.triangles().len()).into_par_iter();
+        let steps = all.filter_map(|triangle| self.time_step(triangle, self.edges(triangle)));
+        steps.min_by(f64::total_cmp)
     }
 
     /// Returns the numbers of a triangle, in the order of [`QualityMeasure::OF_TRIANGLES`].

@@ -25,8 +25,8 @@ pub struct HistogramBar {
     pub is_bad: bool,
 }
 
-/// Bars side by side, linear in the count. A bar can be clicked; with the focus on one, the arrow keys lead to
-/// the others.
+/// Bars side by side, linear in the count. A bar can be clicked; with the focus on one, the arrow keys lead
+/// to the others.
 #[must_use = "call `show`"]
 pub struct Histogram<'a> {
     name: &'a str,
@@ -36,6 +36,9 @@ pub struct Histogram<'a> {
 }
 
 impl<'a> Histogram<'a> {
+    /// Its height in points.
+    pub const HEIGHT: f32 = HEIGHT + TICKS;
+
     /// Creates a histogram. `name` names it for tests and screen readers, `nouns` are words for one and for
     /// many of what is counted.
     pub fn new(name: &'a str, bars: &'a [HistogramBar], nouns: [&'a str; 2]) -> Self {
