@@ -5,17 +5,20 @@ use std::path::PathBuf;
 use eframe::egui::Context;
 use eframe::{Storage, get_value, set_value};
 
-use meshbrush_kit::kit::Tab;
+use crate::app::features::statistics::Statistics;
 use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::dock::Dock;
 use meshbrush_kit::kit::presentation::Presentation;
 use meshbrush_kit::kit::project::ProjectFile;
 use meshbrush_kit::kit::view::View;
+use meshbrush_kit::kit::{Features, Tab};
 
 /// Name under which the storage keeps the coordinates that places are written in.
 const COORDINATES_KEY: &str = "coordinates";
 /// Name under which the storage keeps the tab of the lower dock.
 const TAB_KEY: &str = "tab";
+/// Name under which it keeps the Courant number of time steps.
+const COURANT_KEY: &str = "courant number";
 /// Name under which it keeps the recent files.
 const RECENT_KEY: &str = "recent files";
 /// Name under which it keeps the zoom factor before the presentation, where the run ends with one.
@@ -32,6 +35,18 @@ pub fn load_tab(dock: &mut Dock, storage: &dyn Storage) {
 /// Keeps the tab for the next run.
 pub fn store_tab(dock: &Dock, storage: &mut dyn Storage) {
     set_value(storage, TAB_KEY, &dock.tab().name());
+}
+
+/// Shows time steps for the Courant number of the last run.
+pub fn load_courant(features: &mut Features, storage: &dyn Storage) {
+    if let Some(number) = get_value(storage, COURANT_KEY) {
+        features.get_mut::<Statistics>().set_courant(number);
+    }
+}
+
+/// Keeps the Courant number for the next run.
+pub fn store_courant(features: &Features, storage: &mut dyn Storage) {
+    set_value(storage, COURANT_KEY, &features.get::<Statistics>().courant());
 }
 
 /// Writes places as in the last run.

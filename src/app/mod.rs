@@ -210,6 +210,7 @@ impl App {
             self.dialogs.load(storage);
             kept::load_tab(&mut self.view.dock, storage);
             kept::load_coordinates(&mut self.view, storage);
+            kept::load_courant(&mut self.features, storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
             kept::end_last_presentation(storage, &cc.egui_ctx);
@@ -294,6 +295,7 @@ impl eframe::App for App {
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
         kept::store_tab(&self.view.dock, storage);
         kept::store_coordinates(&self.view, storage);
+        kept::store_courant(&self.features, storage);
         kept::store_presentation(self.view.presentation, storage);
         eframe::set_value(storage, THREADS_KEY, &self.threads.limit());
     }

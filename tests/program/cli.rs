@@ -310,6 +310,17 @@ fn pieces_of_the_boundary_have_names() {
     let [shortest, longest, ratio] = ["shortest_edge", "longest_edge", "size_ratio"]
         .map(|name| summary["statistics"][name].as_f64().unwrap());
     assert!(0.0 < shortest && shortest < longest && longest < 2.0 && (1.0..4.0).contains(&ratio));
+    let quality = &summary["quality"];
+    for (measure, count) in
+        [("smallest_angle", "triangles"), ("edge_ratio", "triangles"), ("triangles_at_node", "nodes")]
+    {
+        let bins = quality[measure]["bins"].as_array().unwrap().iter();
+        let counted: u64 = bins.map(|bin| bin["count"].as_u64().unwrap()).sum();
+        assert_eq!(counted, summary[count].as_u64().unwrap(), "{measure}: {quality}");
+    }
+    assert_eq!(quality["smallest_angle"]["least"]["value"], summary["statistics"]["smallest_angle"]);
+    assert_eq!(quality["largest_angle"]["greatest"]["value"], summary["statistics"]["largest_angle"]);
+    assert!(quality.get("time_step").is_none(), "lengths are degrees, and there are no depths");
     let file = folder.read("m.msh");
     assert!(file.contains("\n1 5 \"Forest 'A' island 1\"\n2 1 \"domain\"\n$EndPhysicalNames\n"), "{file}");
     assert!(file.contains(

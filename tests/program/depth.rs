@@ -250,6 +250,7 @@ fn edges_keep_the_largest_courant_number_or_are_counted() {
             // The largest stable time step is the one with which the largest Courant number is 1.
             let stable = summary["largest_time_step"]["seconds"].as_f64().unwrap();
             assert!((stable * largest / time_step - 1.0).abs() < 1e-6, "{stable} and {largest}");
+            assert_eq!(summary["quality"]["time_step"]["least"]["value"].as_f64(), Some(stable));
             assert_eq!(counted > 0, ran.err.contains("edges have a Courant number above"), "{}", ran.err);
             assert!(largest <= most * limit * (1.0 + 1e-6), "{domain}: {}", ran.err);
             assert!(most > 1.0 || counted == 0, "{domain}: {}", ran.err);

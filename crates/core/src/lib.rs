@@ -14,4 +14,5 @@ pub mod paint;
 pub mod build;
 pub mod path;
 pub mod explain;
+pub mod quality;
 pub mod document;

@@ -1,4 +1,5 @@
-//! Finds the parts of the mesh that are finer than its field requires, on a grid of pixels to be shown.
+//! Finds what triangles are like on a grid of pixels to be shown: which are finer than the field requires,
+//! and any number of those that files get.
 
 use std::collections::HashMap;
 
@@ -8,7 +9,7 @@ use crate::build::RefinementCriterion;
 use crate::explain::asks_to_bisect;
 use crate::geometry::Rect;
 use crate::layers::{LevelCache, PaintLayers, SizeField};
-use crate::mesh::{Limits, Mesh, TreeTriangle, TriangleId};
+use crate::mesh::{Limits, Mesh, MeshView, TreeTriangle, TriangleId};
 use crate::raster::Raster;
 
 /// The triangles of a mesh at the centres of pixels.
@@ -74,6 +75,68 @@ impl<'a> PixelTriangles<'a> {
         let parent = TreeTriangle::from_mesh(self.mesh, id).parent(self.mesh.lattice());
         parent.is_some_and(|parent| !asks_to_bisect(&parent, criterion, limits))
     }
+}
+
+/// By how much rounding can make a point on an edge seem to be outside, as a share of the height.
+const ROUNDING: f64 = 1e-9;
+
+/// Returns a value at each pixel over `bounds` in world units whose centre is in a triangle of a mesh, from
+/// the number of the triangle, the centre, and the weights of its vertices there; NaN at the others, and
+/// where there is no value. Triangle after triangle is asked about. `size` is [columns, rows]. `None` where
+/// `goes_on` says that nobody wants it any more.
+pub fn values_by_pixel(
+    mesh: MeshView,
+    (bounds, size): (Rect, [u32; 2]),
+    goes_on: &dyn Fn() -> bool,
+    mut value: impl FnMut(usize, DVec2, [f64; 3]) -> Option<f64>,
+) -> Option<Raster> {
+    let mut values = Raster::filled(bounds, size, f32::NAN);
+    let centers = values.pixel_centers();
+    for (number, triangle) in mesh.triangles().iter().enumerate() {
+        if number % 4096 == 0 && !goes_on() {
+            return None;
+        }
+        let corners =
+            triangle.vertices.map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node.index()]));
+        let around = Rect::holding(corners)?;
+        if around.intersection(&bounds).is_none() {
+            continue;
+        }
+        for (x, y) in values.pixels_touching(&around).pixels() {
+            let at = centers(x, y);
+            let Some(weights) = weights(corners, at) else { continue };
+            if let Some(value) = value(number, at, weights) {
+                values.set(x, y, value as f32);
+            }
+        }
+    }
+    Some(values)
+}
+
+/// Returns a number of each triangle, as `of_triangle` has it for those with a pixel, at the pixels within,
+/// as [`values_by_pixel`].
+pub fn numbers_by_pixel(
+    mesh: MeshView,
+    pixels: (Rect, [u32; 2]),
+    goes_on: &dyn Fn() -> bool,
+    mut of_triangle: impl FnMut(usize) -> Option<f64>,
+) -> Option<Raster> {
+    let mut last = None;
+    values_by_pixel(mesh, pixels, goes_on, |number, _, _| match last {
+        Some((known, value)) if known == number => value,
+        _ => {
+            let value = of_triangle(number);
+            last = Some((number, value));
+            value
+        }
+    })
+}
+
+/// Returns the weights of the corners at a point in a closed triangle.
+fn weights([a, b, c]: [DVec2; 3], at: DVec2) -> Option<[f64; 3]> {
+    let whole = (b - a).perp_dot(c - a);
+    let parts = [(b, c), (c, a), (a, b)].map(|(from, to)| (to - from).perp_dot(at - from) / whole);
+    parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
 }
 
 #[cfg(test)]
@@ -144,5 +207,29 @@ mod tests {
             let slack = pixels.slack(id, &built.field, PaintLayers::blank(), &mut squares);
             assert!((f64::from(slack) - expected).abs() < 1e-5, "{middle}: {slack} {expected}");
         }
+    }
+
+    #[test]
+    fn a_number_of_a_triangle_is_at_the_pixels_within_and_asked_for_once() {
+        let built = fixture::built("0.05 + 0.4*x*y", RefinementRule::Area, Limits::default());
+        let extract = built.mesh.extract();
+        // No centre is on an edge.
+        let bounds = Rect::new(dvec2(0.2013, 0.3007), dvec2(1.2071, 1.3039));
+        let mut asked = vec![0; extract.triangles().len()];
+        let found = numbers_by_pixel(extract.view(), (bounds, [37, 29]), &|| true, |number| {
+            asked[number] += 1;
+            (number % 5 > 0).then_some(number as f64)
+        })
+        .unwrap();
+        let centers = found.pixel_centers();
+        for (x, y) in found.all().pixels() {
+            let expected = built.mesh.locate(centers(x, y)).triangle().map(TriangleId::index);
+            match expected.filter(|number| number % 5 > 0) {
+                Some(number) => assert_eq!(found.get(x, y), number as f32, "{x} {y}"),
+                None => assert!(found.get(x, y).is_nan(), "{x} {y}"),
+            }
+        }
+        assert!(asked.iter().all(|&times| times <= 1) && asked.iter().sum::<i32>() > 100);
+        assert!(numbers_by_pixel(extract.view(), (bounds, [4, 4]), &|| false, |_| None).is_none());
     }
 }

@@ -9,6 +9,7 @@ use glam::{DVec2, dvec2};
 use crate::geometry::Rect;
 use crate::layers::DepthSurface;
 use crate::mesh::{MeshView, Progress};
+use crate::pixels::values_by_pixel;
 use crate::raster::{PixelRect, Raster};
 use crate::surface::{SurfaceFit, SurfaceRule};
 
@@ -18,8 +19,6 @@ const ISOBATHS: f64 = 10.0;
 const RELIEF: f64 = 0.08;
 /// The direction to the light, east, north and up: from the north-west.
 const LIGHT: [f64; 3] = [-0.5, 0.5, FRAC_1_SQRT_2];
-/// By how much rounding can make a point on an edge seem to be outside, as a share of the height.
-const ROUNDING: f64 = 1e-9;
 /// Depth that counts as least in relative differences, in metres.
 const LEAST_DEPTH: f64 = 10.0;
 
@@ -197,38 +196,14 @@ fn differences(
     mesh: MeshView,
     at_node: impl Fn(usize) -> f64,
     difference: impl Fn(DVec2, f64) -> Option<f64>,
-    (bounds, size): (Rect, [u32; 2]),
+    pixels: (Rect, [u32; 2]),
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Raster> {
-    let mut differences = Raster::filled(bounds, size, f32::NAN);
-    let centers = differences.pixel_centers();
-    for (number, triangle) in mesh.triangles().iter().enumerate() {
-        if number % 4096 == 0 && !goes_on() {
-            return None;
-        }
-        let corners =
-            triangle.vertices.map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node.index()]));
-        let around = Rect::holding(corners)?;
-        if around.intersection(&bounds).is_none() {
-            continue;
-        }
-        for (x, y) in differences.pixels_touching(&around).pixels() {
-            let at = centers(x, y);
-            let Some(weights) = weights(corners, at) else { continue };
-            let of_mesh = (0..3).map(|n| weights[n] * at_node(triangle.vertices[n].index())).sum();
-            if let Some(difference) = difference(at, of_mesh) {
-                differences.set(x, y, difference as f32);
-            }
-        }
-    }
-    Some(differences)
-}
-
-/// Returns the weights of the corners at a point in a closed triangle.
-fn weights([a, b, c]: [DVec2; 3], at: DVec2) -> Option<[f64; 3]> {
-    let whole = (b - a).perp_dot(c - a);
-    let parts = [(b, c), (c, a), (a, b)].map(|(from, to)| (to - from).perp_dot(at - from) / whole);
-    parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
+    values_by_pixel(mesh, pixels, goes_on, |number, at, weights| {
+        let nodes = mesh.triangles()[number].vertices;
+        let of_mesh = (0..3).map(|n| weights[n] * at_node(nodes[n].index())).sum();
+        difference(at, of_mesh)
+    })
 }
 
 #[cfg(test)]

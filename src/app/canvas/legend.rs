@@ -2,8 +2,9 @@
 
 use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::level_legend;
 use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
+use super::quality_colors::measure_of;
+use super::{level_legend, quality_legend};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
 use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
 use meshbrush_kit::kit::command::Command;
@@ -15,7 +16,7 @@ use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{elided_text, format, paint_floating};
 
 /// Width of the box and of a swatch, in points.
-const WIDTH: f32 = 124.0;
+pub(super) const WIDTH: f32 = 124.0;
 const SWATCH: f32 = 18.0;
 /// Heights of the title and of a row with text, in points.
 pub(super) const TITLE: f32 = 20.0;
@@ -42,6 +43,12 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Com
         FieldOverlay::DepthError => Some(depth_error_legend(ui, inner, state, palette)),
         FieldOverlay::Surface => Some(surface_legend(ui, inner, state, palette)),
         FieldOverlay::SurfaceError => Some(surface_error_legend(ui, inner, state, palette)),
+        FieldOverlay::SmallestAngle
+        | FieldOverlay::LargestAngle
+        | FieldOverlay::EdgeRatio
+        | FieldOverlay::TargetRatio
+        | FieldOverlay::TimeStep => measure_of(state.view.overlay)
+            .map(|measure| quality_legend::show(ui, inner, state, palette, measure)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None if state.view.aids.levels => {
             levels = level_legend::show(ui, inner, state, commands);
@@ -179,7 +186,7 @@ fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &
 }
 
 /// Shows a row of text below a scale.
-fn below_scale(ui: &Ui, place: Rect, text: String) {
+pub(super) fn below_scale(ui: &Ui, place: Rect, text: String) {
     let at = place.left_top() + vec2(0.0, 32.0);
     ui.painter().text(at, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
 }
@@ -192,14 +199,14 @@ fn plan_only(ui: &Ui, inner: Rect) -> Rect {
 }
 
 /// Says which layer is missing.
-fn no_layer(ui: &Ui, inner: Rect, title: &str, text: &str) -> Rect {
+pub(super) fn no_layer(ui: &Ui, inner: Rect, title: &str, text: &str) -> Rect {
     let place = boxed(ui, inner, vec2(WIDTH, ROW), title, &format!("Legend: {text}"));
     ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
     place
 }
 
 /// Cells of colours side by side, with text below the left, the middle and the right.
-fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = Opaque>, texts: [String; 3]) {
+pub(super) fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = Opaque>, texts: [String; 3]) {
     let t = tokens(ui);
     let bar = place.with_max_y(place.top() + 12.0);
     let width = bar.width() / colors.len() as f32;

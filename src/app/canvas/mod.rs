@@ -13,6 +13,8 @@ mod overlay;
 mod overlay_palette;
 mod press;
 mod price;
+mod quality_colors;
+mod quality_legend;
 mod relief_colors;
 mod space;
 mod toast;

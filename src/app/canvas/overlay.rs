@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::super::contours::pixels_over;
 use super::overlay_palette::OverlayPalette;
+use super::quality_colors::QualityData;
 use super::relief_colors::ReliefColors;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::layers::{DepthSurface, Layer, LevelCache, PaintLayers, SizeField};
@@ -15,7 +16,7 @@ use meshbrush_kit::kit::jobs::{Jobs, Slot, Wanted};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::Extract;
+use meshbrush_mesh::mesh::{Extract, Limits};
 use meshbrush_render::scene::{Camera, Overlay};
 use meshbrush_study::pixels::PixelTriangles;
 use meshbrush_study::relief::{depth_differences, surface_differences};
@@ -47,7 +48,8 @@ enum OverlaySource {
     Data,
     /// The triangles, pixel by pixel of the screen: each has one colour.
     Triangles,
-    /// The mesh with its nodes on the outline, which is compared with data pixel by pixel of the screen.
+    /// The mesh with its nodes on the outline, which is compared with data or measured, pixel by pixel of the
+    /// screen.
     Comparison,
 }
 
@@ -59,7 +61,13 @@ impl OverlaySource {
             }
             FieldOverlay::Depth | FieldOverlay::Surface => Self::Data,
             FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => Self::Triangles,
-            FieldOverlay::DepthError | FieldOverlay::SurfaceError => Self::Comparison,
+            FieldOverlay::DepthError
+            | FieldOverlay::SurfaceError
+            | FieldOverlay::SmallestAngle
+            | FieldOverlay::LargestAngle
+            | FieldOverlay::EdgeRatio
+            | FieldOverlay::TargetRatio
+            | FieldOverlay::TimeStep => Self::Comparison,
         }
     }
 }
@@ -175,6 +183,7 @@ fn colors_of(
     let settings = follower.settings();
     let (domain, rule, limits) = (follower.domain().clone(), settings.rule, settings.limits());
     let surface = follower.surface().cloned();
+    let quality = QualityData::of(session);
     move |wanted| {
         let OverlayState { kind, bounds, size, palette, .. } = &state;
         let goes_on = &|| wanted.goes_on();
@@ -187,12 +196,9 @@ fn colors_of(
                 triangles()?.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
             }
             FieldOverlay::Forced => {
-                let triangles = triangles()?;
                 let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
                     .with_surface(surface.as_deref());
-                triangles.colors(goes_on, palette.neutral(), |id| {
-                    palette.forced(triangles.is_forced(id, &criterion, &limits))
-                })
+                forced_colors(&triangles()?, &criterion, &limits, palette, goes_on)
             }
             FieldOverlay::Slack => {
                 let (triangles, mut squares) = (triangles()?, LevelCache::default());
@@ -204,6 +210,11 @@ fn colors_of(
             FieldOverlay::SurfaceError => {
                 surface_error_colors(surface.as_deref(), &*extract()?, &state, goes_on)
             }
+            FieldOverlay::SmallestAngle
+            | FieldOverlay::LargestAngle
+            | FieldOverlay::EdgeRatio
+            | FieldOverlay::TargetRatio
+            | FieldOverlay::TimeStep => quality.colors(&*extract()?, &state, goes_on),
             FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
             FieldOverlay::Layer => {
                 sampled().map(|(_, layers)| layers.into_iter().map(|layer| palette.layer(layer)).collect())
@@ -214,6 +225,17 @@ fn colors_of(
         };
         Some(Pixels { rgba: rgba? })
     }
+}
+
+fn forced_colors(
+    triangles: &PixelTriangles<'_>,
+    criterion: &RefinementCriterion<'_>,
+    limits: &Limits,
+    palette: &OverlayPalette,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<[u8; 4]>> {
+    let color = |id| palette.forced(triangles.is_forced(id, criterion, limits));
+    triangles.colors(goes_on, palette.neutral(), color)
 }
 
 /// `None` where `goes_on` says at the beginning of a row that nobody wants the colours any more.

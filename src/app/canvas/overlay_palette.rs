@@ -2,6 +2,7 @@
 
 use crate::app::features::layers::layer_color32;
 use meshbrush_core::layers::LayerId;
+use meshbrush_core::quality::QualityMeasure;
 use meshbrush_render::colormap::{Ground, LevelColors};
 
 /// A colour as sRGB bytes, opaque.
@@ -27,6 +28,11 @@ const GROUND: [Opaque; 5] = [
     [0xb5, 0x89, 0x64, 0xff],
     [0xe9, 0xe4, 0xdd, 0xff],
 ];
+/// The smallest and the largest angles, in degrees, and the edge ratios with a neutral colour and with the
+/// strongest one.
+pub const SMALLEST_ANGLES: [f32; 2] = [45.0, 15.0];
+pub const LARGEST_ANGLES: [f32; 2] = [90.0, 150.0];
+pub const EDGE_RATIOS: [f32; 2] = [1.5, 3.5];
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;
 
@@ -128,6 +134,26 @@ impl OverlayPalette {
         self.depth_error(-MOST_ERROR * share)
     }
 
+    /// Returns the colour of a number of a triangle: neutral where it is good, red where it is bad. An edge by
+    /// h̄ is blue where the triangle is finer than asked, and a time step is one by the least.
+    pub fn quality(&self, measure: QualityMeasure, number: f32) -> Opaque {
+        let [good, bad] = match measure {
+            QualityMeasure::TargetRatio => return self.depth_error(-MOST_ERROR * number.log2()),
+            QualityMeasure::TimeStep => {
+                return self.warned(1.0 - number.log2() / MOST_SLACK);
+            }
+            QualityMeasure::SmallestAngle => SMALLEST_ANGLES,
+            QualityMeasure::LargestAngle => LARGEST_ANGLES,
+            QualityMeasure::EdgeRatio | QualityMeasure::Valence => EDGE_RATIOS,
+        };
+        self.warned((number - good) / (bad - good))
+    }
+
+    /// Returns a colour from neutral to a warm red, by a share from 0 to 1.
+    fn warned(&self, share: f32) -> Opaque {
+        self.risk((255.0 * share.clamp(0.0, 1.0)) as u8)
+    }
+
     /// Returns a colour from neutral to one that stands out in the theme, by a share from 0 to 1.
     fn emphasised(&self, share: f32) -> Opaque {
         let strongest = match self.ground {
@@ -187,6 +213,11 @@ mod tests {
                 ("risk", palette.risk(255)),
                 ("a mesh that is too deep", palette.depth_error(MOST_ERROR)),
                 ("a mesh that is too shallow", palette.depth_error(-MOST_ERROR)),
+                ("a small angle", palette.quality(QualityMeasure::SmallestAngle, 10.0)),
+                ("a large angle", palette.quality(QualityMeasure::LargestAngle, 170.0)),
+                ("a long triangle", palette.quality(QualityMeasure::EdgeRatio, 4.0)),
+                ("an edge longer than h̄", palette.quality(QualityMeasure::TargetRatio, 2.0)),
+                ("the least time step", palette.quality(QualityMeasure::TimeStep, 1.0)),
             ] {
                 assert!(contrast(color, neutral) > 3.0, "{what} {ground:?}: {}", contrast(color, neutral));
             }
@@ -196,6 +227,16 @@ mod tests {
             assert!(depths.windows(2).all(|pair| pair[1] < pair[0]), "deeper is darker: {depths:?}");
             assert_eq!([palette.depth_error(f32::NAN), palette.depth_error(0.0)], [neutral; 2]);
             assert_eq!([palette.slack(0.0), palette.slack(f32::NAN), palette.age(None)], [neutral; 3]);
+            let good = [
+                (QualityMeasure::SmallestAngle, 45.0),
+                (QualityMeasure::LargestAngle, 90.0),
+                (QualityMeasure::EdgeRatio, 1.42),
+                (QualityMeasure::TargetRatio, 1.0),
+                (QualityMeasure::TimeStep, 16.0),
+            ];
+            for (measure, number) in good {
+                assert_eq!(palette.quality(measure, number), neutral, "{measure:?}");
+            }
         }
     }
 }

@@ -20,15 +20,25 @@ pub static PLACES: &[DockPlace] = &[
     DockPlace::new("budgets", "Budgets", "Deepest level").words("max level limit bisections refinement"),
     DockPlace::new("budgets", "Budgets", "Memory budget").words("limit maximum ram gigabytes"),
     DockPlace::new("mesh", "Mesh", "Threads").words("cores cpu processors parallel"),
-    DockPlace::new("statistics", "Statistics", "")
-        .words("figures quality angles area fingerprint counts table"),
-    DockPlace::new("statistics", "Statistics", "Smallest angle")
-        .words("quality bad elements skewness aspect ratio sliver minimum"),
-    DockPlace::new("statistics", "Statistics", "Largest angle")
-        .words("quality bad elements skewness obtuse maximum"),
+    DockPlace::new("statistics", "Statistics", "").words("figures area fingerprint counts table parts"),
     DockPlace::new("statistics", "Statistics", "Shortest edge").words("quality minimum smallest narrowest"),
     DockPlace::new("statistics", "Statistics", "Longest edge").words("quality maximum largest widest"),
     DockPlace::new("statistics", "Statistics", "Gradation").words("quality growth size change neighbours"),
+    DockPlace::new("quality", "Quality", "").words(
+        "figures angles bad elements histogram worst check skewness aspect ratio narrowest strait widest",
+    ),
+    DockPlace::new("quality", "Quality", "Smallest angle")
+        .words("quality bad elements skewness sliver slivers thin minimum narrowest"),
+    DockPlace::new("quality", "Quality", "Largest angle")
+        .words("quality bad elements skewness obtuse maximum widest"),
+    DockPlace::new("quality", "Quality", "Edge ratio")
+        .words("quality bad elements aspect ratio skewness sliver slivers stretched longest shortest"),
+    DockPlace::new("quality", "Quality", "Longest edge / h̄")
+        .words("quality target size ratio too coarse honoured diameter"),
+    DockPlace::new("quality", "Quality", "Time step")
+        .words("cfl courant number stability smallest stable solver seconds depths"),
+    DockPlace::new("quality", "Quality", "Triangles at a node")
+        .words("quality valence degree connectivity neighbours elements"),
     DockPlace::new("plots", "Plots", "").words("chart figure time measure experiment"),
     DockPlace::new("domain", "Domain", "").words("extent outline coast region"),
     DockPlace::new("domain", "Domain", "Unit").words("metres kilometres degrees length"),

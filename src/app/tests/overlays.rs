@@ -4,9 +4,14 @@ use eframe::egui::{Pos2, Rect, ThemePreference, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::pictures::{Picture, drawn_window, picture, pixel};
-use super::{FREE, RESTING_PLACE, Window, canvas, in_world, on_screen, send, stroke, wait_for_jobs};
-use meshbrush_kit::kit::command::{Command, ViewCommand};
+use super::pictures::{Picture, drawn_window, drawn_window_of, picture, pixel, write_for_a_look};
+use super::{
+    FREE, RESTING_PLACE, Window, canvas, in_world, on_screen, open_section, send, stroke, wait_for_jobs,
+    wait_until,
+};
+use meshbrush_core::document::Example;
+use meshbrush_kit::kit::DockPlace;
+use meshbrush_kit::kit::command::{Command, FileCommand, ViewCommand};
 use meshbrush_kit::kit::view::FieldOverlay;
 
 /// The middle of a place with painted risk in the first example.
@@ -115,6 +120,41 @@ fn the_legends_of_triangles_have_the_colours_of_the_canvas() {
     }
 }
 
+/// Triangles on the coast, which the mesh before its outline does not have, have the colour of their shape.
+#[test]
+fn the_legends_of_shapes_have_the_colours_of_the_canvas() {
+    let mut window = drawn_window_of(vec2(1280.0, 720.0), |_, _| {});
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::Aegean)));
+    wait_until(&mut window, |window| window.state().session().derived().is_some());
+    let derived = window.state().session().derived().unwrap().shared_extract();
+    let nodes: Vec<DVec2> = derived.world_nodes().collect();
+    let shapes = derived.cells().map(|cell| {
+        let [a, b, c] = cell.corners.map(|node| nodes[node]);
+        let angle = |at: DVec2, p: DVec2, q: DVec2| (p - at).angle_to(q - at).abs().to_degrees();
+        let mut edges = [a.distance(b), b.distance(c), c.distance(a)];
+        edges.sort_by(f64::total_cmp);
+        let smallest = angle(a, b, c).min(angle(b, c, a)).min(angle(c, a, b));
+        ((a + b + c) / 3.0, smallest, edges)
+    });
+    let sliver = shapes.min_by(|one, other| one.1.total_cmp(&other.1));
+    let (middle, smallest, [shortest, _, longest]) = sliver.expect("the sea has triangles");
+    assert!((15.0..35.0).contains(&smallest), "{smallest}");
+    open_section(&mut window, "Quality");
+    send(&mut window, Command::from(ViewCommand::GoTo(middle, 0.2 * shortest)));
+    for theme in THEMES {
+        for (overlay, spoken, share) in [
+            (FieldOverlay::SmallestAngle, "Legend: Smallest angle", (smallest - 15.0) / 30.0),
+            (FieldOverlay::EdgeRatio, "Legend: Longest / shortest", (longest / shortest - 1.5) / 2.0),
+        ] {
+            let image = show(&mut window, theme, overlay);
+            let scale = cells(&window, &image, spoken, 16);
+            let at = default_color(&image, on_screen(&window, middle));
+            write_for_a_look(&mut window, &format!("{overlay:?}-{theme:?}"));
+            assert_same(at, scale[((16.0 * share) as usize).min(15)], 12, spoken);
+        }
+    }
+}
+
 /// Each pixel has the colour of the triangle that it lies in, also where one covers much of the canvas.
 #[test]
 fn the_ages_of_triangles_are_exact_at_any_zoom() {
@@ -143,4 +183,19 @@ fn the_ages_of_triangles_are_exact_at_any_zoom() {
         }
         assert!(seen.iter().sum::<usize>() > 500, "{seen:?}");
     }
+}
+
+/// The panel says what the legend of time steps compares with, once it has measured.
+#[test]
+fn the_legend_of_time_steps_has_the_smallest_one() {
+    let mut window = drawn_window_of(vec2(1280.0, 720.0), |_, _| {});
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::CelticSea)));
+    open_section(&mut window, "Quality");
+    wait_for_jobs(&mut window);
+    show(&mut window, ThemePreference::Dark, FieldOverlay::TimeStep);
+    static PLACE: DockPlace = DockPlace::new("quality", "Quality", "Time step");
+    window.get_by_label_contains("Legend: Time step / smallest 1 to ≥ 16");
+    write_for_a_look(&mut window, "TimeStep");
+    send(&mut window, Command::from(ViewCommand::Reveal(&PLACE)));
+    write_for_a_look(&mut window, "TimeStep-panel");
 }

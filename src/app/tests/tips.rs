@@ -66,7 +66,7 @@ pub fn unexplained(window: &Window) -> Vec<String> {
 fn every_control_of_the_panels_has_a_sentence() {
     let mut window = window_of(vec2(TALL.x, 3000.0));
     send(&mut window, Command::from(InspectCommand::Query(FREE)));
-    for section in ["Mesh", "Background picture", "Statistics"] {
+    for section in ["Mesh", "Background picture", "Statistics", "Quality"] {
         open_section(&mut window, section);
     }
     wait_until(&mut window, |window| window.query_by_label("Fingerprint").is_some());

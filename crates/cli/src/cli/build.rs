@@ -81,6 +81,11 @@ impl FinishedMesh {
         &self.built
     }
 
+    /// Returns the paint of the layers.
+    pub fn paint(&self) -> &PaintLayers {
+        &self.origin.paint
+    }
+
     /// Returns the unit of coordinates and lengths.
     pub fn unit(&self) -> LengthUnit {
         self.origin.unit

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::build::FinishedMesh;
 use super::input::Input;
 use super::output_coordinates::OutputCoordinates;
+use super::quality::QualitySummary;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{
@@ -29,6 +30,8 @@ pub struct MeshDetails {
     pub courant: Option<CourantFit>,
     /// The largest stable time step, if a layer has depths, lengths are no degrees, and it is wanted.
     pub largest_time_step: Option<LargestTimeStep>,
+    /// How good the triangles are, if it is wanted.
+    pub quality: Option<QualitySummary>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,
     /// The height of the surface at each node, if a layer is one and files are wanted.
@@ -85,6 +88,7 @@ impl MeshDetails {
             let ground = finished.ground();
             LargestTimeStep::of(extract.view(), &depths.depths, finished.unit(), |ends| ground.length(ends))
         });
+        let quality = uses.json.then(|| QualitySummary::of(finished, extract, depths.as_ref()));
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         let surface = finished.surface_fit(extract);
@@ -97,6 +101,7 @@ impl MeshDetails {
             depths,
             courant,
             largest_time_step,
+            quality,
             surface,
             heights,
             straits,

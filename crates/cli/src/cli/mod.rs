@@ -23,6 +23,7 @@ pub mod output_coordinates;
 mod path;
 mod path_proof;
 mod points;
+pub mod quality;
 mod quantities;
 mod recipe;
 mod replay;

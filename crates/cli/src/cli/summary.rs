@@ -8,6 +8,7 @@ use super::details::{
     CourantSummary, DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
     SurfaceSummary, TimeStepSummary,
 };
+use super::quality::QualitySummary;
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
 use meshbrush_core::field::RefinementRule;
@@ -49,6 +50,9 @@ pub struct Summary {
     pub part_triangles: Option<Vec<usize>>,
     /// Edges, areas, angles and gradation.
     pub statistics: Option<MeshStatistics>,
+    /// How good the triangles are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub quality: Option<QualitySummary>,
     /// How far the depths at the nodes are from the layers of depths, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthSummary>,
@@ -308,6 +312,7 @@ impl Summary {
             lost_pieces: boundary.map(LostPiece::all),
             part_triangles: details.map(MeshDetails::part_triangles),
             statistics: details.and_then(|_| ground.statistics(extract)),
+            quality: details.and_then(|details| details.quality.clone()),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),

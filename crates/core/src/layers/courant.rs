@@ -48,19 +48,48 @@ impl LargestTimeStep {
         unit: LengthUnit,
         length: impl Fn([DVec2; 2]) -> f64 + Sync,
     ) -> Option<Self> {
-        let metres = match unit {
-            LengthUnit::None | LengthUnit::Metre => 1.0,
-            LengthUnit::Kilometre => 1000.0,
-            LengthUnit::Degree => return None,
-        };
+        let times = EdgeTimes::new(depths, unit)?;
         let of_edge = |wet: WetEdge| {
             let edge = length(wet.ends);
-            Self { seconds: metres * edge / wet.speed, at: wet.middle(), edge }
+            Self { seconds: times.metres * edge / wet.speed, at: wet.middle(), edge }
         };
         // Of equal ones the first: the answer does not depend on threads.
         let steps: Vec<Self> = wet_edges(mesh, depths).into_par_iter().map(of_edge).collect();
         steps.into_iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
+}
+
+/// The times in which a wave of 1 m runs along edges of a mesh: their time steps with the Courant number 1.
+#[derive(Clone, Copy, Debug)]
+pub struct EdgeTimes<'a> {
+    depths: &'a [f64],
+    /// Metres in the unit of the document.
+    metres: f64,
+}
+
+impl<'a> EdgeTimes<'a> {
+    /// Returns those of a mesh whose nodes have these depths, in metres; plain numbers are metres. `None` in
+    /// degrees.
+    pub fn new(depths: &'a [f64], unit: LengthUnit) -> Option<Self> {
+        let metres = match unit {
+            LengthUnit::None | LengthUnit::Metre => 1.0,
+            LengthUnit::Kilometre => 1000.0,
+            LengthUnit::Degree => return None,
+        };
+        Some(Self { depths, metres })
+    }
+
+    /// Returns the time along an edge between two nodes, in seconds; `None` without water at an end. The
+    /// length is in the unit of the document.
+    pub fn seconds(&self, ends: [usize; 2], length: f64) -> Option<f64> {
+        speed_along(self.depths, ends).map(|speed| self.metres * length / speed)
+    }
+}
+
+/// Returns the speed of a wave along an edge, in m/s; `None` without water at an end.
+fn speed_along(depths: &[f64], ends: [usize; 2]) -> Option<f64> {
+    let [a, b] = ends.map(|node| depths[node]);
+    (a > 0.0 || b > 0.0).then(|| wave_speed(0.5 * (a + b)))
 }
 
 /// An edge with water at an end.
@@ -77,10 +106,11 @@ impl WetEdge {
 }
 
 fn wet_edges(mesh: MeshView, depths: &[f64]) -> Vec<WetEdge> {
-    let wet = |[from, to]: [u32; 2]| {
-        let [a, b] = [from, to].map(|node| depths[node as usize]);
-        let ends = [from, to].map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node as usize]));
-        (a > 0.0 || b > 0.0).then(|| WetEdge { ends, speed: wave_speed(0.5 * (a + b)) })
+    let wet = |ends: [u32; 2]| {
+        let nodes = ends.map(|node| node as usize);
+        let speed = speed_along(depths, nodes)?;
+        let ends = nodes.map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node]));
+        Some(WetEdge { ends, speed })
     };
     edges(mesh).into_par_iter().filter_map(wet).collect()
 }

@@ -51,7 +51,7 @@ mod defaults;
 
 pub use areas::PaintChange;
 pub use check::{InvalidLayer, LayerCheck};
-pub use courant::{CourantFit, LargestTimeStep};
+pub use courant::{CourantFit, EdgeTimes, LargestTimeStep};
 pub use curve::{CurveError, FineAt, ValueCurve};
 pub use depth::{DepthError, DepthRule, DepthSizes, Depths, PositiveDepth, wavelength};
 pub use depth_surface::DepthSurface;

@@ -39,6 +39,7 @@ mod path_referees;
 mod path_threads;
 mod path_valleys;
 mod path_walls;
+mod quality;
 mod random_coast;
 mod random_costs;
 mod project_limits;

@@ -39,6 +39,20 @@ static SENTENCES: &[(&str, &str)] = &[
     ),
     ("Overlay/Surface", "Shows the height of surfaces as a shaded relief with contour lines."),
     ("Overlay/Surface error", "Shows where the mesh is higher (red) or lower (blue) than surfaces."),
+    ("Overlay/Smallest angle", "Shows the smallest angle of each triangle: slivers are red."),
+    ("Overlay/Largest angle", "Shows the largest angle of each triangle: obtuse ones are red."),
+    (
+        "Overlay/Edge ratio",
+        "Shows the longest edge of each triangle by its shortest: long thin ones are red.",
+    ),
+    (
+        "Overlay/Longest edge / h̄",
+        "Shows the longest edge of each triangle by h̄ at its middle: red where it is longer, blue where it is shorter.",
+    ),
+    (
+        "Overlay/Time step",
+        "Shows which triangles decide the time step of a solver: in red those where a wave needs least time along an edge.",
+    ),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),
     ("Colours/Cividis", "Navy to yellow; looks nearly the same with and without red-green blindness."),
@@ -327,9 +341,6 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Triangles", "Triangles of the mesh, as files get it."),
     ("Nodes", "Nodes of the mesh, as files get it."),
     ("Area", "Area of all triangles."),
-    ("Time step", "The largest time step of a solver for a wave of 1 m with the Courant number 1."),
-    ("Smallest angle", "The smallest angle of all triangles."),
-    ("Largest angle", "The largest angle of all triangles."),
     ("Angles", "The smallest and the largest angle of all triangles."),
     (
         "Fingerprint",

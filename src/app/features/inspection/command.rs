@@ -28,6 +28,9 @@ pub enum InspectCommand {
     GoTo(DVec2),
     /// Puts a triangle in the middle of the canvas, large enough to be seen, and queries it.
     GoToTriangle(TriangleId),
+    /// Asks why the triangle at a point is there: queries it, shows it at least this large, in world units,
+    /// and opens the explanation.
+    AskWhy(DVec2, f64),
     /// Chooses what the inspector interpolates.
     Interpolate(Quantity),
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::text::{Inspection, NEIGHBOURS};
 use super::{DETAILS, ExploreCommand, INSPECTOR, InspectCommand, Inspector, QUERY, TreeStep, WALK, WHY};
 use super::{cause_marks, entries, walk_marks};
-use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
 use meshbrush_kit::kit::{Ctx, Feature, Row};
 use meshbrush_mesh::mesh::TriangleId;
 
@@ -51,6 +51,13 @@ impl Feature for Inspector {
                 let middle = middle_of(id, ctx);
                 ctx.session.query(Some(middle));
                 ctx.view.go_to(middle, ctx.session.view().diameter(id), TRIANGLE_PX);
+            }
+            InspectCommand::AskWhy(point, size) => {
+                // Only the query tool explains.
+                ctx.send(Command::from(ShellCommand::Use(&QUERY)));
+                ctx.session.query(Some(point));
+                ctx.view.revealed_panel = Some(WHY.name);
+                ctx.view.go_to(point, size, TRIANGLE_PX);
             }
             InspectCommand::Interpolate(quantity) => ctx.view.quantity = quantity,
         }

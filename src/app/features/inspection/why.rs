@@ -19,7 +19,7 @@ use meshbrush_ui::widgets::{
 pub static WHY: Panel = Panel { name: "why", tab: Tab::Inspect, place: 3, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    Section::new("Why this triangle").show(ui, |ui| {
+    Section::new("Why this triangle").reveal(WHY.is_revealed(state)).show(ui, |ui| {
         let (Some(explanation), Some(shown)) = (
             state.feature::<Inspector>().explore.explanation(),
             state.feature::<Inspector>().explore.shown(),

@@ -1,18 +1,23 @@
-//! The figures of the mesh, and its triangles by level.
+//! The figures of the mesh, how good its triangles are, and its triangles by level.
 
 mod command;
 mod figures;
 mod levels;
+mod measuring;
 mod panel;
+mod quality;
 #[cfg(test)]
 mod tests;
 
 pub use command::StatisticsCommand;
-use figures::Measured;
+use measuring::{Measured, Measuring};
 
 use meshbrush_kit::kit::derivation::MeasuredMesh;
 use meshbrush_kit::kit::jobs::Slot;
 
 /// Measures meshes, and keeps the figures of the last one.
-#[derive(Default)]
-pub struct Statistics(Slot<MeasuredMesh, Measured>);
+pub struct Statistics {
+    figures: Slot<MeasuredMesh, Measured>,
+    /// The Courant number that time steps are shown for.
+    courant: f64,
+}

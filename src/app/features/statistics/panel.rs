@@ -4,50 +4,63 @@ use eframe::egui::Ui;
 use glam::DVec2;
 
 use super::Measured;
+use super::measuring::edges_at;
+use crate::app::features::inspection::InspectCommand;
 use crate::app::features::statistics::{Statistics, StatisticsCommand};
-use meshbrush_core::layers::LargestTimeStep;
 use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
 use meshbrush_kit::kit::{FrameState, Panel, Tab};
 use meshbrush_mesh::mesh::MeshStatistics;
 use meshbrush_ui::theme::metrics;
-use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
+use meshbrush_ui::widgets::{AnswerRow, Section, ValueRow, format, value_row};
 
 /// Rows of the figures of a mesh in one part.
-const DEFAULT_ROWS: f32 = 9.0;
+const DEFAULT_ROWS: f32 = 8.0;
 /// Connected parts with a row of their own.
 const MOST_PARTS: usize = 5;
 
-/// Edges, areas, angles, gradation, parts, whether h̄ is honoured, and the fingerprint.
+/// Edges, area, gradation, parts, whether h̄ is honoured, and the fingerprint.
 pub static STATISTICS: Panel = Panel { name: "statistics", tab: Tab::Mesh, place: 1, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Statistics").closed().show(ui, |ui| {
-        let figures = state.feature::<Statistics>().figures(state.session);
-        let is_current = figures.is_some_and(|(_, is_current)| is_current);
-        if state.feature::<Statistics>().is_due(state.session) {
-            // They are computed only while the section is open.
-            commands.push(Command::from(StatisticsCommand::Measure));
-        }
-        let Some((measured, _)) = figures else {
-            // The room that the figures will take: opening the section brings all of it into view.
-            ui.set_min_height(DEFAULT_ROWS * (metrics::ROW + metrics::ROW_GAP));
-            value_row(ui, "Mesh", "being measured");
-            return;
-        };
-        // The figures of the former mesh stay until those of the new one are known: nothing jumps. Their
-        // places are no places of the mesh that is shown.
-        ui.scope(|ui| {
-            if !is_current {
-                ui.disable();
-            }
+        figures_of(ui, DEFAULT_ROWS, state, commands, |ui, measured, commands| {
             count_rows(ui, measured);
             if let Some(statistics) = &measured.statistics {
-                edge_rows(ui, statistics, state, commands);
-                shape_rows(ui, statistics, measured, state, commands);
+                edge_rows(ui, statistics, measured, state, commands);
             }
             target_row(ui, measured, state, commands);
             fingerprint_row(ui, measured, commands);
         });
+    });
+}
+
+/// Shows the figures of the mesh, with room for so many rows before they are known. They are computed only
+/// while somebody asks.
+pub fn figures_of(
+    ui: &mut Ui,
+    rows: f32,
+    state: &FrameState<'_>,
+    commands: &mut Vec<Command>,
+    show: impl FnOnce(&mut Ui, &Measured, &mut Vec<Command>),
+) {
+    let figures = state.feature::<Statistics>().figures(state.session);
+    let is_current = figures.is_some_and(|(_, is_current)| is_current);
+    if state.feature::<Statistics>().is_due(state.session) {
+        commands.push(Command::from(StatisticsCommand::Measure));
+    }
+    let Some((measured, _)) = figures else {
+        // The room that the figures will take: opening the section brings all of it into view.
+        ui.set_min_height(rows * (metrics::ROW + metrics::ROW_GAP));
+        value_row(ui, "Mesh", "being measured");
+        return;
+    };
+    // The figures of the former mesh stay until those of the new one are known: nothing jumps. Their places
+    // are no places of the mesh that is shown.
+    ui.scope(|ui| {
+        if !is_current {
+            ui.disable();
+        }
+        show(ui, measured, commands);
     });
 }
 
@@ -73,45 +86,31 @@ fn count_rows(ui: &mut Ui, measured: &Measured) {
     }
 }
 
-fn edge_rows(ui: &mut Ui, statistics: &MeshStatistics, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let help = "A click goes to this edge.";
-    for (label, length, place) in [
-        ("Shortest edge", statistics.shortest_edge, statistics.shortest_edge_at),
-        ("Longest edge", statistics.longest_edge, statistics.longest_edge_at),
-    ] {
-        let value = &format::length(length, state.unit());
-        PlaceRow { label, value, help, place, size: length }.show(ui, commands);
-    }
-}
-
-fn shape_rows(
+fn edge_rows(
     ui: &mut Ui,
     statistics: &MeshStatistics,
     measured: &Measured,
     state: &FrameState<'_>,
     commands: &mut Vec<Command>,
 ) {
+    let [shortest, longest, gradation] = edges_at(statistics);
+    let [of_shortest, of_longest, of_gradation] = measured.beside_edges;
+    let help = "A click goes to this edge.";
+    for (label, length, place, inside) in [
+        ("Shortest edge", statistics.shortest_edge, shortest, of_shortest),
+        ("Longest edge", statistics.longest_edge, longest, of_longest),
+    ] {
+        let value = &format::length(length, state.unit());
+        let inside = inside.unwrap_or(place);
+        PlaceRow { label, value, help, place, inside, size: length }.show(ui, commands);
+    }
     value_row(ui, "Area", &format::area(measured.area, state.unit(), 6));
+    let value = &format!("× {}", format::fixed(statistics.size_ratio, 2));
+    let help = "The largest ratio of the diameters of two neighbouring triangles. A click goes there.";
+    let (place, inside) = (gradation, of_gradation.unwrap_or(gradation));
     // No triangle is smaller: at this zoom, those of all figures can be seen.
     let size = statistics.shortest_edge;
-    let help = "A click goes to this corner.";
-    for (label, angle, place) in [
-        ("Smallest angle", statistics.smallest_angle, statistics.smallest_angle_at),
-        ("Largest angle", statistics.largest_angle, statistics.largest_angle_at),
-    ] {
-        let value = &format!("{}°", format::fixed(angle, 1));
-        PlaceRow { label, value, help, place, size }.show(ui, commands);
-    }
-    let (value, place) =
-        (&format!("× {}", format::fixed(statistics.size_ratio, 2)), statistics.size_ratio_at);
-    let help = "The largest ratio of the diameters of two neighbouring triangles. A click goes there.";
-    PlaceRow { label: "Gradation", value, help, place, size }.show(ui, commands);
-    if let Some(LargestTimeStep { seconds, at, edge }) = measured.time_step {
-        let value = &format::time(seconds);
-        let help = "The largest time step of a solver for a wave of 1 m with the Courant number 1 along every edge. A click \
-                    goes to the edge that decides it.";
-        PlaceRow { label: "Time step", value, help, place: at, size: edge }.show(ui, commands);
-    }
+    PlaceRow { label: "Gradation", value, help, place, inside, size }.show(ui, commands);
 }
 
 /// Whether the mesh honours h̄: Eq. (14) of the report.
@@ -133,7 +132,7 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
             };
             let help = "Triangles that are longer than h̄ asks for. A click goes to the first of them.";
             let size = mesh.diameter(*first);
-            PlaceRow { label, value: &value, help, place, size }.show(ui, commands);
+            PlaceRow { label, value: &value, help, place, inside: place, size }.show(ui, commands);
         }
         None => {
             let help = "At some point the target diameter is not a positive number.";
@@ -148,20 +147,31 @@ fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>
     }
 }
 
-/// A row whose click goes to a place.
-struct PlaceRow<'a> {
-    label: &'a str,
-    value: &'a str,
-    help: &'a str,
-    place: DVec2,
+/// A row whose click goes to a place. The word *why* explains the triangle there.
+pub struct PlaceRow<'a> {
+    /// Its name.
+    pub label: &'a str,
+    /// What is found there.
+    pub value: &'a str,
+    /// What it means.
+    pub help: &'a str,
+    /// The place, in world units.
+    pub place: DVec2,
+    /// A point in the triangle that is explained.
+    pub inside: DVec2,
     /// The size of what is there, in world units.
-    size: f64,
+    pub size: f64,
 }
 
 impl PlaceRow<'_> {
-    fn show(self, ui: &mut Ui, commands: &mut Vec<Command>) {
-        if ValueRow::new(self.label, self.value).help(self.help).link().show(ui).clicked() {
+    /// Shows the row.
+    pub fn show(self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        let clicks = AnswerRow::new(self.label, self.value, self.help).show(ui);
+        if clicks.goes {
             commands.push(Command::from(ViewCommand::GoTo(self.place, self.size)));
+        }
+        if clicks.asks_why {
+            commands.push(Command::from(InspectCommand::AskWhy(self.inside, self.size)));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What is drawn over the mesh.
 
+use meshbrush_core::quality::QualityMeasure;
+
 /// The field that is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldOverlay {
@@ -25,6 +27,16 @@ pub enum FieldOverlay {
     Surface,
     /// How far the mesh is from surfaces.
     SurfaceError,
+    /// The smallest angle of each triangle.
+    SmallestAngle,
+    /// The largest angle of each triangle.
+    LargestAngle,
+    /// The longest edge of each triangle by its shortest.
+    EdgeRatio,
+    /// The longest edge of each triangle by h̄.
+    TargetRatio,
+    /// The largest time step of each triangle.
+    TimeStep,
 }
 
 impl FieldOverlay {
@@ -41,7 +53,24 @@ impl FieldOverlay {
         Self::DepthError,
         Self::Surface,
         Self::SurfaceError,
+        Self::SmallestAngle,
+        Self::LargestAngle,
+        Self::EdgeRatio,
+        Self::TargetRatio,
+        Self::TimeStep,
     ];
+
+    /// Returns the overlay of a measure; `None` of one of nodes.
+    pub fn of_measure(measure: QualityMeasure) -> Option<Self> {
+        Some(match measure {
+            QualityMeasure::SmallestAngle => Self::SmallestAngle,
+            QualityMeasure::LargestAngle => Self::LargestAngle,
+            QualityMeasure::EdgeRatio => Self::EdgeRatio,
+            QualityMeasure::TargetRatio => Self::TargetRatio,
+            QualityMeasure::TimeStep => Self::TimeStep,
+            QualityMeasure::Valence => return None,
+        })
+    }
 
     /// Returns the name of the choice in the list of the panel.
     pub fn name(self) -> &'static str {
@@ -57,6 +86,11 @@ impl FieldOverlay {
             Self::DepthError => "Depth error",
             Self::Surface => "Surface",
             Self::SurfaceError => "Surface error",
+            Self::SmallestAngle => "Smallest angle",
+            Self::LargestAngle => "Largest angle",
+            Self::EdgeRatio => "Edge ratio",
+            Self::TargetRatio => "Longest edge / h̄",
+            Self::TimeStep => "Time step",
         }
     }
 
@@ -74,6 +108,11 @@ impl FieldOverlay {
             Self::DepthError => "Overlay depth error of the mesh",
             Self::Surface => "Overlay surface as a relief",
             Self::SurfaceError => "Overlay surface error of the mesh",
+            Self::SmallestAngle => "Overlay smallest angle",
+            Self::LargestAngle => "Overlay largest angle",
+            Self::EdgeRatio => "Overlay edge ratio",
+            Self::TargetRatio => "Overlay longest edge by h̄",
+            Self::TimeStep => "Overlay time step",
         }
     }
 }

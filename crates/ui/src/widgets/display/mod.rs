@@ -1,8 +1,10 @@
 //! Widgets that show a value.
 
+mod answer_row;
 mod chip;
 mod empty;
 mod file_row;
+mod histogram;
 mod icon;
 mod key_row;
 mod levels;
@@ -10,9 +12,11 @@ mod plot;
 mod status;
 mod value_row;
 
+pub use answer_row::{AnswerClicks, AnswerRow};
 pub use chip::{Chip, chips};
 pub use empty::empty_state;
 pub use file_row::FileRow;
+pub use histogram::{Histogram, HistogramBar};
 pub use icon::Icon;
 pub use key_row::{key_row, key_row_button};
 pub use levels::{LevelLegend, LevelRow};

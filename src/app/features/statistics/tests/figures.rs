@@ -5,10 +5,11 @@ use eframe::egui::{Modifiers, OutputCommand};
 use egui_kittest::kittest::Queryable as _;
 
 use super::super::Measured;
+use super::super::measuring::edges_at;
 use crate::app::features::statistics::Statistics;
 use crate::app::tests::{
-    FREE, TALL, Window, click_button, fingerprint, notice, open_section, press, release, send, set, stroke,
-    triangles, value_of, wait_for_jobs, wait_until, window_of,
+    FREE, TALL, Window, fingerprint, notice, open_section, press, release, send, set, stroke, triangles,
+    value_of, wait_for_jobs, wait_until, window_of,
 };
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_kit::kit::command::{Command, FileCommand};
@@ -32,17 +33,17 @@ fn open_statistics(window: &mut Window) {
     wait_for_figures(window);
 }
 
-fn figures(window: &Window) -> Option<(&Measured, bool)> {
+pub fn figures(window: &Window) -> Option<(&Measured, bool)> {
     let app = window.state();
     app.features().get::<Statistics>().figures(app.session())
 }
 
-fn wait_for_figures(window: &mut Window) {
+pub fn wait_for_figures(window: &mut Window) {
     wait_until(window, |window| figures(window).is_some_and(|(_, current)| current));
     window.run();
 }
 
-fn row(window: &Window, name: &str) -> String {
+pub fn row(window: &Window, name: &str) -> String {
     let links = window.query_by_role_and_label(Role::Button, name);
     let role = if links.is_some() { Role::Button } else { Role::Definition };
     value_of(window, role, name)
@@ -58,7 +59,6 @@ fn the_figures_are_those_of_the_mesh_and_follow_it() {
         assert_eq!([row(&window, "Shortest edge"), row(&window, "Longest edge")], [shortest, longest]);
         assert_eq!(row(&window, "Triangles"), format::count(triangles(&window) as u64));
         assert_eq!(row(&window, "Area"), "1");
-        assert_eq!([row(&window, "Smallest angle"), row(&window, "Largest angle")], ["45.0°", "90.0°"]);
         assert_eq!(row(&window, "Gradation"), "× 1.41");
         assert_eq!(row(&window, "h̄ honoured"), "everywhere");
         assert_eq!(row(&window, "Fingerprint"), fingerprint(&window).to_string());
@@ -125,23 +125,16 @@ fn parts_and_moved_nodes_are_counted() {
     let (measured, _) = figures(&window).unwrap();
     let statistics = measured.statistics.unwrap();
     assert!(statistics.smallest_angle >= 12.0 && statistics.size_ratio < 4.0, "{statistics:?}");
+    // The triangles that are explained are those with the edges.
+    let derived = session.derived().unwrap().shared_extract();
+    for (middle, inside) in edges_at(&statistics).into_iter().zip(measured.beside_edges) {
+        let inside = inside.expect("a triangle has the edge");
+        let has_edge = derived.cells().any(|cell| {
+            let [a, b, c] = cell.corners.map(|node| derived.world_nodes().nth(node).unwrap());
+            let is_inside = ((a + b + c) / 3.0).distance(inside) < 1e-9 * statistics.longest_edge;
+            is_inside && [a.midpoint(b), b.midpoint(c), c.midpoint(a)].contains(&middle)
+        });
+        assert!(has_edge, "{middle}");
+    }
     assert_eq!(measured.too_coarse.as_deref(), Some(&[][..]));
-}
-
-/// The time step is that of the edge that a wave crosses first, and a click goes there.
-#[test]
-fn a_sea_has_a_time_step_and_its_place_is_shown() {
-    let mut window = window_of(TALL);
-    send(&mut window, Command::from(FileCommand::OpenExample(Example::CelticSea)));
-    wait_for_jobs(&mut window);
-    open_statistics(&mut window);
-    let (measured, _) = figures(&window).unwrap();
-    let step = measured.time_step.expect("it has depths");
-    // A wave in 200 m of water has 44 m/s, and one in 1 m has 6 m/s.
-    let shortest = measured.statistics.as_ref().unwrap().shortest_edge;
-    assert!(step.seconds > shortest / 60.0 && step.seconds <= step.edge, "{step:?}, {shortest}");
-    let before = window.state().view().camera.unwrap().px_per_world();
-    click_button(&mut window, "Time step");
-    let camera = window.state().view().camera.unwrap();
-    assert!(camera.visible_world().center().distance(step.at) < 1.0 && camera.px_per_world() > before);
 }
