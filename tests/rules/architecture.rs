@@ -26,6 +26,7 @@ const MODULES: [&str; 31] = [
     "path",
     "explain",
     "document",
+    "drawing",
     "plot",
     "steps",
     "levels",
@@ -39,13 +40,14 @@ const MODULES: [&str; 31] = [
     "render",
     "cli",
     "theme",
+    "lettering",
     "widgets",
     "kit",
     "app",
 ];
 
 /// The modules of the window.
-const OF_WINDOW: [&str; 4] = ["theme", "widgets", "kit", "app"];
+const OF_WINDOW: [&str; 5] = ["theme", "lettering", "widgets", "kit", "app"];
 
 /// What `src/lib.rs` declares besides: documentation.
 const OTHER_MODULES: [&str; 1] = ["guide"];
