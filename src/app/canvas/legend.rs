@@ -28,8 +28,8 @@ pub(super) const MARGIN: Vec2 = vec2(10.0, 7.0);
 /// Shows the legend of the overlay, of the contour lines or of the levels in the upper right corner of
 /// `inner`, and that of the paths below it. Returns the place that takes clicks, which is that of the levels.
 ///
-/// While a step is shown, that is the legend of its levels, where it covers nothing of the mesh: `mesh` is where
-/// that is on the screen.
+/// While a step is shown, that is the legend of its levels, where it covers nothing of the mesh: `mesh` is
+/// where that is on the screen.
 pub fn show(
     ui: &Ui,
     inner: Rect,

@@ -20,8 +20,8 @@ const MOST: [f32; 2] = [0.25, 0.55];
 const COLUMNS: [f32; 2] = [SWATCH + 17.0, SWATCH + 66.0];
 
 /// Shows the levels of a mesh with these `counts` of triangles in the upper right corner of `inner`. Returns
-/// the place of the box, and the level under the pointer or with the focus; `None` where there is no room, where
-/// the box would cover something of `uncovered`, or where there is no mesh yet.
+/// the place of the box, and the level under the pointer or with the focus; `None` where there is no room,
+/// where the box would cover something of `uncovered`, or where there is no mesh yet.
 pub fn show(
     ui: &Ui,
     inner: Rect,

@@ -157,7 +157,8 @@ impl ReportFigure {
         (self == Self::Orientation).then_some(dvec2(6.3, 0.88))
     }
 
-    /// Returns the area that shows what the figure is about, in world units; `None` if that is the whole domain.
+    /// Returns the area that shows what the figure is about, in world units; `None` if that is the whole
+    /// domain.
     pub fn area(self) -> Option<Rect> {
         match self {
             // The pair that is bisected, with room around it for the letters.

@@ -1,5 +1,5 @@
-//! A step of the refinement as a drawing: the mesh with the numbers of triangles and nodes, the stack, and what
-//! the step does.
+//! A step of the refinement as a drawing: the mesh with the numbers of triangles and nodes, the stack, and
+//! what the step does.
 
 use std::path::{Path, PathBuf};
 

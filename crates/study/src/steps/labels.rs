@@ -9,8 +9,8 @@ pub struct LabelSize {
     pub size: [f64; 2],
     /// The least distance of its rim from the place; 0 where it may cover the place.
     pub gap: f64,
-    /// How much farther its rim may be from the place. Where there is no room up to there, it is left out. 0 if
-    /// it does not move, infinite if any place will do.
+    /// How much farther its rim may be from the place. Where there is no room up to there, it is left out.
+    /// 0 if it does not move, infinite if any place will do.
     pub reach: f64,
 }
 
@@ -21,8 +21,8 @@ pub struct LabelRoom<'a> {
     pub area: [[f64; 2]; 2],
     /// Lower and upper corners of what they must not cover.
     pub obstacles: &'a [[[f64; 2]; 2]],
-    /// Triangles that they cover only where there is no other room, or if the label is that of the triangle and
-    /// stands within it.
+    /// Triangles that they cover only where there is no other room, or if the label is that of the triangle
+    /// and stands within it.
     pub avoided: &'a [[[f64; 2]; 3]],
 }
 
@@ -70,8 +70,8 @@ impl LabelSize {
         Self { at, size, gap: BESIDE_NODE, reach: 0.0 }
     }
 
-    /// Returns the end of the line from its place to a label with this middle; `None` where it is so near that
-    /// it needs none.
+    /// Returns the end of the line from its place to a label with this middle; `None` where it is so near
+    /// that it needs none.
     pub fn leader(&self, middle: [f64; 2]) -> Option<[f64; 2]> {
         let end = [0, 1].map(|axis| {
             let half = 0.5 * self.size[axis];
@@ -93,27 +93,32 @@ const MARGIN: f64 = 2.0;
 
 /// Returns the middle of each label; `None` for one that is left out, because there is no room for it. What
 /// comes first is nearest to its place. Labels cover neither each other nor an obstacle, nor the places of
-/// those that stand beside them, and are within the area.
+/// those that stand beside them, and are within the area. Numbers do not stand on the lines of other labels.
 pub fn placed(labels: &[LabelSize], room: &LabelRoom<'_>) -> Vec<Option<[f64; 2]>> {
     let dots = labels.iter().filter(|label| label.gap > 0.0);
     let mut taken: Vec<Extent> = dots.map(|label| Extent::around(label.at, [0.0; 2])).collect();
     taken.extend(room.obstacles.iter().map(|&[low, high]| Extent { low, high }));
-    let mut middles = Vec::with_capacity(labels.len());
+    let (mut middles, mut leaders) = (Vec::with_capacity(labels.len()), Vec::new());
     for label in labels {
+        let is_crossed = |extent: &Extent| leaders.iter().any(|leader| extent.is_crossed_by(leader));
         let fits = |middle: &[f64; 2]| {
             let extent = Extent::around(*middle, label.size);
-            extent.is_within(room.area) && !taken.iter().any(|other| extent.overlaps(other))
+            extent.is_within(room.area)
+                && !taken.iter().any(|other| extent.overlaps(other))
+                && (label.reach.is_infinite() || !is_crossed(&extent))
         };
         let is_polite = |middle: &[f64; 2]| {
             let stays = label.gap == 0.0 && *middle == label.at;
             let extent = Extent::around(*middle, label.size);
-            stays || !room.avoided.iter().any(|triangle| extent.meets(triangle))
+            let covers = room.avoided.iter().any(|triangle| extent.meets(triangle));
+            (stays || !covers) && !is_crossed(&extent)
         };
         let middle = candidates(label)
             .find(|middle| is_polite(middle) && fits(middle))
             .or_else(|| candidates(label).find(fits))
             .or_else(|| label.reach.is_infinite().then(|| nearest_in(room.area, label, fits)).flatten());
         taken.extend(middle.map(|middle| Extent::around(middle, label.size)));
+        leaders.extend(middle.and_then(|middle| Some([label.at, label.leader(middle)?])));
         middles.push(middle);
     }
     middles
@@ -183,6 +188,17 @@ impl Extent {
             corners.iter().all(|corner| cross(from, to, *corner) * inner <= 0.0)
         });
         !is_beside && !is_cut_off
+    }
+
+    /// Returns whether a line passes through it.
+    fn is_crossed_by(&self, [from, to]: &[[f64; 2]; 2]) -> bool {
+        let [low, high] = [self.low, self.high];
+        let is_beside = (0..2)
+            .any(|axis| from[axis].max(to[axis]) <= low[axis] || from[axis].min(to[axis]) >= high[axis]);
+        let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
+        let sides = corners.map(|corner| cross(*from, *to, corner));
+        let is_on_one_side = sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0);
+        !is_beside && !is_on_one_side
     }
 
     fn is_within(&self, [low, high]: [[f64; 2]; 2]) -> bool {
@@ -301,6 +317,38 @@ mod tests {
         let obstacle = [[[95.0, 95.0], [96.0, 96.0]]];
         assert_eq!(placed(&[first], &LabelRoom { obstacles: &obstacle, ..room() }), [None]);
         assert_eq!(placed(&[LabelSize::fixed([1.0, 1.0], [20.0, 12.0])], &room()), [None]);
+    }
+
+    #[test]
+    fn no_number_stands_on_the_line_of_a_name() {
+        let names = (0..4).map(|number| LabelSize {
+            at: [100.0 + f64::from(number), 100.0],
+            size: [60.0, 18.0],
+            gap: 40.0,
+            reach: f64::INFINITY,
+        });
+        let numbers = (0..150).map(|number| {
+            let (x, y) = (f64::from(number % 15), f64::from(number / 15));
+            LabelSize::fixed([30.0 + 10.0 * x, 50.0 + 10.0 * y], [7.0, 7.0])
+        });
+        let labels: Vec<LabelSize> = names.chain(numbers).collect();
+        let middles = placed(&labels, &room());
+        let (mut lines, mut shown) = (0, 0);
+        for (name, middle) in labels[..4].iter().zip(&middles) {
+            let Some(end) = name.leader(middle.unwrap()) else { continue };
+            lines += 1;
+            for (number, middle) in labels[4..].iter().zip(&middles[4..]) {
+                let Some(middle) = middle else { continue };
+                shown += 1;
+                let [left, top, right, bottom] = sides(*middle, number.size);
+                for part in 0..=200 {
+                    let share = f64::from(part) / 200.0;
+                    let [x, y] = [0, 1].map(|axis| name.at[axis] + share * (end[axis] - name.at[axis]));
+                    assert!(!(left < x && x < right && top < y && y < bottom), "{middle:?} on a line");
+                }
+            }
+        }
+        assert!(lines == 4 && shown > 200, "{lines} {shown}");
     }
 
     #[test]
