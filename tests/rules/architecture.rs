@@ -10,7 +10,7 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 32] = [
+const MODULES: [&str; 34] = [
     "text",
     "geometry",
     "mesh",
@@ -27,6 +27,7 @@ const MODULES: [&str; 32] = [
     "explain",
     "quality",
     "document",
+    "drawing",
     "plot",
     "steps",
     "levels",
@@ -40,13 +41,14 @@ const MODULES: [&str; 32] = [
     "render",
     "cli",
     "theme",
+    "lettering",
     "widgets",
     "kit",
     "app",
 ];
 
 /// The modules of the window.
-const OF_WINDOW: [&str; 4] = ["theme", "widgets", "kit", "app"];
+const OF_WINDOW: [&str; 5] = ["theme", "lettering", "widgets", "kit", "app"];
 
 /// What `src/lib.rs` declares besides: documentation.
 const OTHER_MODULES: [&str; 1] = ["guide"];

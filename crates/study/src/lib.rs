@@ -4,6 +4,7 @@
 use meshbrush_core::{build, document, domain, explain, field, layers, outline, raster, surface};
 use meshbrush_mesh::{geometry, mesh, text};
 
+pub mod drawing;
 pub mod plot;
 pub mod steps;
 pub mod levels;

@@ -2,4 +2,5 @@
 #![deny(unsafe_code)]
 
 pub mod theme;
+pub mod lettering;
 pub mod widgets;

@@ -212,6 +212,11 @@ pub mod metrics {
     pub const STATUS_BAR: f32 = 28.0;
 }
 
+/// The files of the fonts with letters.
+pub(crate) const INTER: &[u8] = include_bytes!("../assets/fonts/Inter-Regular.ttf");
+pub(crate) const INTER_SEMIBOLD: &[u8] = include_bytes!("../assets/fonts/Inter-SemiBold.ttf");
+pub(crate) const JETBRAINS_MONO: &[u8] = include_bytes!("../assets/fonts/JetBrainsMono-Regular.ttf");
+
 /// The fonts, by use.
 pub mod font {
     use super::{FontFamily, FontId};
@@ -273,9 +278,9 @@ pub fn install(ctx: &egui::Context) {
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     let mut add = |name: &str, data: FontData| fonts.font_data.insert(name.to_owned(), Arc::new(data));
-    add("inter", FontData::from_static(include_bytes!("../assets/fonts/Inter-Regular.ttf")));
-    add("inter-semibold", FontData::from_static(include_bytes!("../assets/fonts/Inter-SemiBold.ttf")));
-    add("mono", FontData::from_static(include_bytes!("../assets/fonts/JetBrainsMono-Regular.ttf")));
+    add("inter", FontData::from_static(INTER));
+    add("inter-semibold", FontData::from_static(INTER_SEMIBOLD));
+    add("mono", FontData::from_static(JETBRAINS_MONO));
     add("icons", FontData::from_static(include_bytes!("../assets/fonts/MaterialSymbols.ttf")));
     for (family, chain) in [
         (FontFamily::Proportional, ["inter", "mono", "icons"].as_slice()),

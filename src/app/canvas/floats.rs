@@ -12,12 +12,16 @@ use meshbrush_core::document::{DrawnPart, Stage};
 use meshbrush_kit::kit::FrameState;
 use meshbrush_kit::kit::background::ProgressRow;
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand};
+use meshbrush_kit::kit::marks::point_from_px;
 use meshbrush_kit::kit::notices::Notice;
 use meshbrush_kit::kit::session::Session;
+use meshbrush_render::scene::Camera;
 use meshbrush_ui::widgets::{
     Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row,
 };
 
+/// Room for the numbers beside the outermost nodes of a step, in points.
+const ROOM_OF_NUMBERS: f32 = 16.0;
 /// How long news is shown at least, in seconds, and with a button.
 const NEWS_SECONDS: f64 = 5.0;
 const NEWS_SECONDS_WITH_BUTTON: f64 = 12.0;
@@ -51,7 +55,8 @@ impl Canvas {
             if state.view.aids.scale_bar && places.is_empty() {
                 coordinates::show_scale_bar(ui, inner, &camera, state);
             }
-            places.extend(legend::show(ui, inner, state, commands));
+            let mesh = on_screen(response.rect, &camera, ui.pixels_per_point());
+            places.extend(legend::show(ui, inner, mesh, state, commands));
             places.extend(show_corners(ui, response.rect, state, &camera, commands));
             places.extend(show_limit_offer(ui, response.rect, state, &camera, commands));
             places.extend(way_back::show(ui, inner, state, &camera, commands));
@@ -92,6 +97,13 @@ impl Canvas {
         }
         (0..rows).map(place).collect()
     }
+}
+
+/// Returns where the rectangle around the domain is on the screen, with room for numbers beside its nodes.
+fn on_screen(canvas: Rect, camera: &Camera, px_per_point: f32) -> Rect {
+    let bounds = camera.lattice().bounds();
+    let corner = |world| point_from_px(canvas, camera.screen_from_world(world), px_per_point);
+    Rect::from_two_pos(corner(bounds.min), corner(bounds.max)).expand(ROOM_OF_NUMBERS)
 }
 
 /// Shows a ground over the canvas for a row of widgets.

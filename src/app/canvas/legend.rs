@@ -6,12 +6,14 @@ use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPal
 use super::quality_colors::measure_of;
 use super::{level_legend, quality_legend};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
+use crate::app::features::stepping::{Stepping, Steps};
 use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
 use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::view::{FieldOverlay, deepest_level};
 use meshbrush_kit::kit::{FrameState, light_level};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_study::relief::isobath_interval;
+use meshbrush_study::steps::StepPlayer;
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{elided_text, format, paint_floating};
 
@@ -26,11 +28,26 @@ pub(super) const MARGIN: Vec2 = vec2(10.0, 7.0);
 
 /// Shows the legend of the overlay, of the contour lines or of the levels in the upper right corner of
 /// `inner`, and that of the paths below it. Returns the place that takes clicks, which is that of the levels.
-pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Command>) -> Option<Rect> {
+///
+/// While a step is shown, that is the legend of its levels, where it covers nothing of the mesh: `mesh` is
+/// where that is on the screen.
+pub fn show(
+    ui: &Ui,
+    inner: Rect,
+    mesh: Rect,
+    state: &FrameState<'_>,
+    commands: &mut Vec<Command>,
+) -> Option<Rect> {
     let inner = inner.with_min_y(inner.top() + 12.0);
+    let player = state.feature::<Stepping>().steps().and_then(Steps::player);
     let palette = &palette_of(state);
     let mut levels = None;
     let content = match state.view.overlay {
+        _ if player.is_some() => {
+            let counts = player.map(StepPlayer::level_counts).unwrap_or_default();
+            levels = level_legend::show(ui, inner, Some(mesh), &counts, state, commands);
+            levels.map(|(place, _)| place)
+        }
         FieldOverlay::None if state.view.space.is_on => None,
         _ if state.view.space.is_on => Some(plan_only(ui, inner)),
         FieldOverlay::Risk => Some(risk_legend(ui, inner, palette)),
@@ -51,7 +68,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>, commands: &mut Vec<Com
             .map(|measure| quality_legend::show(ui, inner, state, palette, measure)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None if state.view.aids.levels => {
-            levels = level_legend::show(ui, inner, state, commands);
+            levels = level_legend::show(ui, inner, None, &state.session.level_counts(), state, commands);
             levels.map(|(place, _)| place)
         }
         FieldOverlay::None => None,
@@ -68,10 +85,15 @@ fn palette_of(state: &FrameState<'_>) -> OverlayPalette {
     OverlayPalette::new(state.view.ground, state.view.level_colors(state.session.follower().settings()))
 }
 
+/// Returns the place of the box of a legend with content of this size, in points.
+pub(super) fn place_of(inner: Rect, content: Vec2) -> Rect {
+    let size = content + vec2(0.0, TITLE) + 2.0 * MARGIN;
+    Rect::from_min_size(inner.right_top() - vec2(size.x, 0.0), size)
+}
+
 /// Draws the box of a legend with its title, and returns the place for its content of this size, in points.
 pub(super) fn boxed(ui: &Ui, inner: Rect, content: Vec2, title: &str, spoken: &str) -> Rect {
-    let size = content + vec2(0.0, TITLE) + 2.0 * MARGIN;
-    let place = Rect::from_min_size(inner.right_top() - vec2(size.x, 0.0), size);
+    let place = place_of(inner, content);
     let response = ui.interact(place, ui.scope_id().with(("legend", title)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken));
     paint_floating(ui, place);

@@ -4,7 +4,7 @@ use eframe::egui::{
     Align2, Color32, CornerRadius, PointerButton, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::legend::{MARGIN, ROW, TITLE, boxed};
+use super::legend::{MARGIN, ROW, TITLE, boxed, place_of};
 use meshbrush_kit::kit::FrameState;
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_ui::theme::{font, tokens};
@@ -19,19 +19,24 @@ const MOST: [f32; 2] = [0.25, 0.55];
 /// Columns at whose right ends the level and the diameter are, in points from the left.
 const COLUMNS: [f32; 2] = [SWATCH + 17.0, SWATCH + 66.0];
 
-/// Shows the levels that the mesh has in the upper right corner of `inner`. Returns the place of the box, and
-/// the level under the pointer or with the focus; `None` where there is no room, or no mesh yet.
+/// Shows the levels of a mesh with these `counts` of triangles in the upper right corner of `inner`. Returns
+/// the place of the box, and the level under the pointer or with the focus; `None` where there is no room,
+/// where the box would cover something of `uncovered`, or where there is no mesh yet.
 pub fn show(
     ui: &Ui,
     inner: Rect,
+    uncovered: Option<Rect>,
+    counts: &[usize],
     state: &FrameState<'_>,
     commands: &mut Vec<Command>,
 ) -> Option<(Rect, Option<u32>)> {
-    let counts = state.session.level_counts();
     let levels: Vec<u32> =
         (0..counts.len()).filter(|&level| counts[level] > 0).map(|level| level as u32).collect();
     let height = ROW * levels.len() as f32;
-    let has_room = WIDTH <= MOST[0] * inner.width() && TITLE + height <= MOST[1] * inner.height();
+    let place = place_of(inner, vec2(WIDTH, height));
+    let has_room = WIDTH <= MOST[0] * inner.width()
+        && TITLE + height <= MOST[1] * inner.height()
+        && !uncovered.is_some_and(|mesh| mesh.intersects(place));
     if levels.is_empty() || state.session.awaits_mesh() || !has_room {
         return None;
     }

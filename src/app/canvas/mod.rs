@@ -331,11 +331,13 @@ impl Canvas {
         ui.painter().add(gpu.shape(rect, camera, style));
     }
 
-    /// Draws what features and the tool show over the mesh, and the gesture in progress.
+    /// Draws what features show below numbers and what the tool shows.
+    fn paint_marks_below(state: &FrameState<'_>, over: &OverMesh<'_>) {
+        ROWS.iter().for_each(|row| (row.marks_below)(state, over));
+    }
+
+    /// Draws what the tool and features show over the mesh, and the gesture in progress.
     fn paint_marks(&self, state: &FrameState<'_>, over: &OverMesh<'_>) {
-        for row in ROWS {
-            (row.marks_below)(state, over);
-        }
         (state.tools.tool.paint)(state, over);
         for row in ROWS {
             (row.marks)(state, over);
@@ -359,23 +361,20 @@ impl Canvas {
         let highlights = self.highlights(state);
         let mesh = state.session.view();
         marks::paint_highlights(&painter, rect, mesh, &camera, &highlights);
+        let screen = camera.screen_map();
+        let screen_from_world = |world| marks::point_from_px(rect, screen(world), px_per_point);
+        let (pointer, screen_from_world) = (response.hover_pos(), &screen_from_world);
+        let over =
+            OverMesh { ui, canvas: rect, painter: &painter, screen_from_world, straight: None, pointer };
+        // Lines pass below the numbers of the triangles that they lead through.
+        Self::paint_marks_below(state, &over);
+        marks::paint_neighbour_numbers(&painter, rect, mesh, &camera, &highlights);
         if let Some(selected) = highlights.selected {
             marks::paint_corner_names(&painter, rect, mesh, &camera, selected);
         }
-        let screen = camera.screen_map();
-        let screen_from_world = |world| marks::point_from_px(rect, screen(world), px_per_point);
         if let Some(readout) = state.readout {
             marks::paint_point(&painter, screen_from_world(readout.point));
         }
-        let pointer = response.hover_pos();
-        let over = OverMesh {
-            ui,
-            canvas: rect,
-            painter: &painter,
-            screen_from_world: &screen_from_world,
-            straight: None,
-            pointer,
-        };
         self.paint_marks(state, &over);
         if let Some(pointer) = pointer {
             let radius = state.tools.radius as f32 * camera.px_per_world() as f32 / px_per_point;

@@ -95,6 +95,7 @@ impl Canvas {
             straight,
             pointer,
         };
+        Self::paint_marks_below(state, &over);
         self.paint_marks(state, &over);
         if let (Some(pointer), Some(world)) = (pointer, state.pointer)
             && state.tools.tool.in_space

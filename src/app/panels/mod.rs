@@ -63,7 +63,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comman
         egui::Panel::right("step")
             .frame(Frame::new().fill(t.panel))
             .resizable(false)
-            .exact_size(stepping::WIDTH)
+            .exact_size(stepping::width(ui))
             .show(ui, |ui| {
                 mark(ui, WindowPart::Panel);
                 step_panel(ui, state, commands);
@@ -98,6 +98,12 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comma
             .frame(bar)
             .exact_size(stepping::BAR_HEIGHT)
             .show(ui, |ui| stepping::step_bar(ui, steps, commands));
+        if stepping::sentence::is_shown(state) {
+            egui::Panel::top("sentence")
+                .frame(bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 0)))
+                .exact_size(stepping::sentence::height(ui, steps))
+                .show(ui, |ui| stepping::sentence::show(ui, steps));
+        }
     }
 }
 

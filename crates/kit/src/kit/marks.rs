@@ -31,7 +31,7 @@ pub fn paint_number(
     painter.galley(place.center() - galley.size() / 2.0, galley, color);
 }
 
-/// Draws the selected triangle, its neighbours and the one under the pointer.
+/// Draws the outlines of the selected triangle, its neighbours and the one under the pointer.
 pub fn paint_highlights(
     painter: &Painter,
     rect: Rect,
@@ -43,6 +43,16 @@ pub fn paint_highlights(
     for outline in highlight_outlines(mesh, camera, highlights, px_per_point) {
         painter.add(outline_shape(&outline, rect, px_per_point));
     }
+}
+
+/// Numbers the neighbours of the selected triangle that are large enough.
+pub fn paint_neighbour_numbers(
+    painter: &Painter,
+    rect: Rect,
+    mesh: MeshView<'_>,
+    camera: &Camera,
+    highlights: &Highlights,
+) {
     for (i, (neighbour, [r, g, b])) in highlights.neighbours.iter().zip(Ground::ON_LEVELS).enumerate() {
         if let Some(id) = *neighbour
             && let Some(at) = middle_if_large(painter, rect, mesh, camera, id)

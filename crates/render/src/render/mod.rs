@@ -7,12 +7,15 @@
 //! since adjacent triangles would show bright seams.
 
 mod draw_flags;
+mod drawn;
 pub mod export;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod north_arrow;
 pub mod path_export;
 pub mod software;
+
+pub use drawn::picture_of;
 
 /// Triangles of at least this size in pixels are drawn pixel by pixel from the exact lines through their
 /// edges. Rasterizing such triangles from their corners in f32 or fixed-point numbers would shift an edge. At

@@ -101,12 +101,13 @@ impl ReportFigure {
             }
             Self::Times => {
                 "The report shows the running time over the number of triangles, both in proportion to the mesh of 9,560 \
-                 triangles, and a line of best fit on logarithmic axes: its gradient is the exponent of a power law. Measure \
-                 repeats this on this machine: on one thread, several runs in turn, the error bars from the least to the greatest."
+                 triangles, and a line of best fit on logarithmic axes: its gradient is the exponent of a power law. This is \
+                 measured on this machine now: on one thread, several runs in turn, the error bars from the least to the greatest."
             }
             Self::Orientation => {
                 "The report shows the test whether a point d lies to the right of an edge (a, b): whether (d − b) × (a − b) is above \
-                 0. Point location steps across such an edge until there is none. The canvas shows this walk to the queried point; query others."
+                 0. Point location steps across such an edge until there is none. The canvas shows this walk from the square to the \
+                 queried point, which is d, and the corners of its triangle; query others."
             }
             Self::Experiment => {
                 "The report makes the mesh of Figure 1 for several sizes of h̄, with 9,560 to 2,113,944 triangles in up to 13 \
@@ -154,6 +155,18 @@ impl ReportFigure {
     /// Returns the point that is queried, in world units.
     pub fn query(self) -> Option<DVec2> {
         (self == Self::Orientation).then_some(dvec2(6.3, 0.88))
+    }
+
+    /// Returns the area that shows what the figure is about, in world units; `None` if that is the whole
+    /// domain.
+    pub fn area(self) -> Option<Rect> {
+        match self {
+            // The pair that is bisected, with room around it for the letters.
+            Self::Descendants => Some(Rect::around(dvec2(0.625, 0.5), 0.3)),
+            // The walk to the queried point, from where point location begins.
+            Self::Orientation => Some(Rect::new(dvec2(5.9, -0.1), dvec2(7.1, 1.15))),
+            _ => None,
+        }
     }
 
     /// Returns the report's numbers beside those of the mesh, and of the walk to a queried point.
@@ -408,6 +421,10 @@ mod tests {
         assert!((5..=32).contains(&steps), "{rows:?}");
         assert_eq!(rows[0].report, "at most 2^5 = 32");
         assert!(rows[1..].iter().all(|row| row.ours.starts_with('−')), "{rows:?}");
+        let area = ReportFigure::Orientation.area().unwrap();
+        let corners = mesh.walk_path(point.unwrap()).into_iter().flat_map(|id| mesh.view().world_corners(id));
+        assert!(corners.into_iter().all(|corner| area.contains(corner)), "the walk is in view");
+        assert!(area.size().max_element() < 6.0 * 0.25, "its triangles are large enough for numbers");
         // From another triangle the point is to the right of an edge.
         let first = mesh.walk_path(point.unwrap())[0];
         let products = mesh.triangle(first).edge_nodes().map(|(b, a)| {

@@ -9,6 +9,7 @@
 //!
 //! Everything is numbered as in the report: triangles and nodes from 1, and −1 stands for the boundary.
 
+mod drawn;
 mod labels;
 mod names;
 mod parts;
@@ -17,9 +18,9 @@ mod pseudo_code;
 mod recorder;
 mod recording;
 mod stages;
-pub mod svg;
 
-pub use labels::{LabelSize, placed};
+pub use drawn::{StepColors, drawing, numbered};
+pub use labels::{LabelRoom, LabelSize, MOST_AVOIDED, placed};
 pub use names::{NamedPlace, Names};
 pub use parts::{Marked, StepPart};
 pub use player::StepPlayer;

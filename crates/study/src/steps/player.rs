@@ -82,6 +82,19 @@ impl StepPlayer {
         of_rows.chain(derived.iter().copied())
     }
 
+    /// Returns how many triangles of each level there are.
+    pub fn level_counts(&self) -> Vec<usize> {
+        let mut counts = Vec::new();
+        for triangle in self.triangles() {
+            let level = usize::from(triangle.level);
+            if counts.len() <= level {
+                counts.resize(level + 1, 0);
+            }
+            counts[level] += 1;
+        }
+        counts
+    }
+
     /// S_b, the top last.
     pub fn stack(&self) -> &[u32] {
         &self.stack

@@ -367,9 +367,11 @@ static SENTENCES: &[(&str, &str)] = &[
     ("From step", "The first step to be exported; 0 is the coarse grid."),
     ("To step", "The last step to be exported."),
     (
-        "Export steps as SVG…",
-        "Writes a drawing of each of these steps, with its number in the name of the file.",
+        "Export steps…",
+        "Writes a drawing of each of these steps as SVG or PNG, by the ending of the name, to a file with its number.",
     ),
+    ("Ground of the drawings/On dark", "Draws the steps on a dark ground."),
+    ("Ground of the drawings/On light", "Draws the steps on a light ground, as for paper."),
     ("Step", "How many steps are done. Drag to go to any of them."),
     ("Steps per second/1", "Plays 1 step in a second."),
     ("Steps per second/3", "Plays 3 steps in a second."),

@@ -17,9 +17,10 @@ impl Feature for Inspector {
     const ROW: Row = Row {
         tools: &[&QUERY],
         panels: &[&INSPECTOR, &DETAILS, &WHY, &WALK],
+        marks_below: walk_marks::paint_walk,
         marks: |state, over| {
             cause_marks::paint(state, over);
-            walk_marks::paint(state, over);
+            walk_marks::paint_trail(over, state.session.trail());
         },
         entries: entries::entries,
         ..Row::EMPTY

@@ -17,18 +17,12 @@ const TRAIL: Color32 = Color32::from_rgb(0xff, 0xc8, 0x57);
 const SMALLEST_DISTANCE: f32 = 5.0;
 const SMALLEST_DISTANCE_OF_NUMBERS: f32 = 18.0;
 
-/// Draws both, where they are shown.
-pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
+/// Draws the walk, where it is shown: a line through the middles of the triangles visited, to the point.
+pub fn paint_walk(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let arrived_at = state.feature::<Inspector>().arrived_at;
     let is_walked = |point| state.view.aids.walk && arrived_at != Some(point);
-    if let Some(readout) = state.readout.filter(|readout| is_walked(readout.point)) {
-        paint_walk(state, over, readout.point);
-    }
-    paint_trail(over, state.session.trail());
-}
-
-/// A line through the middles of the triangles visited, to the point.
-fn paint_walk(state: &FrameState<'_>, over: &OverMesh<'_>, point: DVec2) {
+    let Some(readout) = state.readout.filter(|readout| is_walked(readout.point)) else { return };
+    let point = readout.point;
     let mesh = state.session.mesh();
     let path = mesh.walk_path(point);
     if path.len() < 2 {
@@ -46,8 +40,8 @@ fn paint_walk(state: &FrameState<'_>, over: &OverMesh<'_>, point: DVec2) {
     over.painter.rect_filled(start, 1.0, WALK);
 }
 
-/// A line with a number at each triangle.
-fn paint_trail(over: &OverMesh<'_>, trail: &[DVec2]) {
+/// Draws the trail: a line with a number at each triangle.
+pub fn paint_trail(over: &OverMesh<'_>, trail: &[DVec2]) {
     if trail.len() < 2 {
         return;
     }

@@ -25,6 +25,8 @@ pub enum PlotsCommand {
     },
     /// Measures the experiment.
     Measure,
+    /// Measures the experiment, unless that was done before.
+    MeasureOnce,
     /// Ends the measuring.
     CancelMeasuring,
     /// Copies the numbers of the plot.

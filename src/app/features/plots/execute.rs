@@ -29,6 +29,11 @@ impl Feature for Plots {
                 }
                 self.measure(ctx.jobs);
             }
+            PlotsCommand::MeasureOnce => {
+                if self.experiment.meshes.is_empty() {
+                    self.measure(ctx.jobs);
+                }
+            }
             PlotsCommand::CancelMeasuring => self.cancel(),
             PlotsCommand::Copy => {
                 if let Some(text) = self.text(ctx.session) {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{FIGURE, FigureCommand, Report, entries};
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::features::stepping::StepCommand;
-use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
+use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand, ViewCommand};
 use meshbrush_kit::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_study::report::ReportFigure;
 
@@ -52,12 +52,16 @@ impl Report {
             ctx.view.aids.walk = true;
             ctx.session.query(Some(point));
         }
+        if let Some(area) = figure.area() {
+            let bounds = ctx.session.document().settings().domain.bounds;
+            ctx.send(Command::from(ViewCommand::ShowAreaOf(bounds, area)));
+        }
+        // The meshes are made at once: the small ones and the plot are there in a moment.
         if figure.is_about_time() {
             ctx.send(Command::from(PlotsCommand::Choose(PlotKind::Figure5)));
-        }
-        // Its entry says that the meshes are made; Figure 5 waits for its button.
-        if figure == ReportFigure::Experiment {
-            ctx.send(Command::from(PlotsCommand::Measure));
+            let is_new = figure == ReportFigure::Experiment;
+            let measure = if is_new { PlotsCommand::Measure } else { PlotsCommand::MeasureOnce };
+            ctx.send(Command::from(measure));
         }
     }
 }

@@ -19,14 +19,15 @@ pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let Some(figure) = state.feature::<Report>().shown else { return };
     ui.add_space(10.0);
     title(ui, figure, commands);
+    let experiment = state.feature::<Plots>().experiment();
+    // The figure itself comes first: in a low window the rest is below it.
+    if figure == ReportFigure::Times && !experiment.meshes.is_empty() {
+        plot_view(ui, PlotKind::Figure5.name(), &experiment.figure_5(), plots::HEIGHT);
+    }
     ui.label(RichText::new(figure.text()).font(font::body()).color(tokens(ui).text));
     ui.add_space(6.0);
     if figure.is_about_time() {
         plots::measuring(ui, state.feature::<Plots>(), commands);
-        let experiment = state.feature::<Plots>().experiment();
-        if figure == ReportFigure::Times && !experiment.meshes.is_empty() {
-            plot_view(ui, PlotKind::Figure5.name(), &experiment.figure_5(), plots::HEIGHT);
-        }
         if !experiment.meshes.is_empty() {
             remark(ui, ABOUT_EXPONENT);
         }

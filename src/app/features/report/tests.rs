@@ -8,8 +8,8 @@ use crate::app::features::plots::Plots;
 use crate::app::features::plots::PlotsCommand;
 use crate::app::features::report::FigureCommand;
 use crate::app::tests::{
-    FREE, TALL, Window, canvas, choose, fingerprint, key, paint, send, settings, tips, triangles, wait_until,
-    window_of,
+    FREE, TALL, Window, canvas, choose, fingerprint, key, on_screen, paint, send, settings, tips, triangles,
+    wait_until, window_of,
 };
 use meshbrush_kit::kit::command::Command;
 use meshbrush_study::report::ReportFigure;
@@ -67,12 +67,10 @@ fn figures_3_and_4_stand_at_their_steps() {
 }
 
 #[test]
-fn figure_5_waits_for_its_button_and_shows_the_gradient() {
-    let mut window = opened(ReportFigure::Times);
-    assert!(!window.state().features().get::<Plots>().is_measuring());
+fn figure_5_is_measured_at_once_and_shows_the_gradient() {
+    let mut window = window_of(TALL);
     send(&mut window, Command::from(PlotsCommand::SetUp { last_level: 6, runs: 1 }));
-    window.get_by_role_and_label(Role::Button, "Measure").click();
-    window.run();
+    open(&mut window, ReportFigure::Times);
     wait_until(&mut window, |window| !window.state().features().get::<Plots>().is_measuring());
     assert!(window.query_by_role_and_label(Role::Image, "Figure 5 of the report").is_some());
     assert!(has(&window, "1.01") && has(&window, "Gradient"));
@@ -81,9 +79,17 @@ fn figure_5_waits_for_its_button_and_shows_the_gradient() {
 #[test]
 fn figure_6_shows_the_walk_to_a_queried_point() {
     let mut window = opened(ReportFigure::Orientation);
+    let shown = canvas(&window);
     let queried = window.state().session().queried().expect("a point is queried");
     assert!(window.state().view().aids.walk);
-    assert!(window.state().session().mesh().walk_path(queried).len() > 5);
+    let path = window.state().session().mesh().walk_path(queried);
+    assert!(path.len() > 5);
+    for id in path {
+        let corners = window.state().session().view().world_corners(id);
+        let corners = corners.map(|corner| on_screen(&window, corner));
+        assert!(corners.iter().all(|&corner| shown.contains(corner)), "the walk is in view: {corners:?}");
+        assert!(corners[0].distance(corners[1]) > 40.0, "and large enough: {corners:?}");
+    }
     assert!(has(&window, "Steps of the walk") && has(&window, "at most 2^5 = 32"));
     assert_eq!(tips::unexplained(&window), [""; 0]);
     key(&mut window, Modifiers::NONE, Key::Escape);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use meshbrush_kit::kit::command::CommandSet;
+use meshbrush_render::colormap::Ground;
 use meshbrush_study::report::ReportFigure;
 
 /// One thing to do in this mode.
@@ -27,6 +28,8 @@ pub enum StepCommand {
     Speed(f64),
     /// Sets the first and the last step to be exported.
     ExportRange(usize, usize),
+    /// Sets the ground of exported drawings.
+    ExportGround(Ground),
     /// Writes the chosen steps, and asks before other files are replaced.
     ExportAs(PathBuf),
     /// Writes the chosen steps, each to a file with its number.

@@ -46,12 +46,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Only bisections", StepCommand::OnlyBisections(!steps.only_bisections))
             .checked(steps.only_bisections)
             .palette_only(),
-        CatalogItem::new(
-            Menu::Method,
-            "Export steps as SVG…",
-            Command::from(FileCommand::Ask(&EXPORT_STEPS)),
-        )
-        .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
-        .enabled(count > 0),
+        CatalogItem::new(Menu::Method, "Export steps…", Command::from(FileCommand::Ask(&EXPORT_STEPS)))
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
+            .enabled(count > 0),
     ]
 }

@@ -55,6 +55,7 @@ impl Feature for Stepping {
             StepCommand::TogglePlay => steps.toggle_play(ctx.egui),
             StepCommand::OnlyBisections(only) => steps.only_bisections = only,
             StepCommand::Speed(speed) => steps.set_speed(speed),
+            StepCommand::ExportGround(ground) => steps.export_ground = Some(ground),
             StepCommand::ExportRange(first, last) => steps.set_export_range(first, last),
         }
         if let Some(place) = self.steps().and_then(Steps::place) {

@@ -4,20 +4,29 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::Steps;
+use super::steps::names_of;
 use meshbrush_io::io;
 use meshbrush_kit::kit::background::listed;
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, not_exported};
 use meshbrush_kit::kit::session::Session;
-use meshbrush_kit::kit::view::View;
-use meshbrush_render::colormap::Ground;
-use meshbrush_study::steps::svg as steps;
+use meshbrush_kit::kit::view::{View, deepest_level};
+use meshbrush_render::colormap::{Ground, LevelColors};
+use meshbrush_render::render::picture_of;
+use meshbrush_study::drawing::Drawing;
+use meshbrush_study::steps::{StepColors, drawing, numbered};
+use meshbrush_ui::lettering::WindowLetters;
 use meshbrush_ui::widgets::format;
 
 /// Most steps that are exported at once.
 pub const MOST_FILES: usize = 500;
+/// Pixels of pictures for a unit of drawings: a picture is 2400 pixels wide.
+const PX_PER_UNIT: f64 = 2.0;
 /// Letters on a dark and on a light ground.
 const ON_DARK: [u8; 3] = [0xe8; 3];
 const ON_LIGHT: [u8; 3] = [0x20; 3];
+/// Numbers over the colours of levels, with their halo.
+const NUMBERS_ON_DARK: [[u8; 3]; 2] = [[0xdd; 3], [0; 3]];
+const NUMBERS_ON_LIGHT: [[u8; 3]; 2] = [[0x18; 3], [0xff; 3]];
 
 impl Steps {
     /// Returns the first and the last step to be exported.
@@ -49,7 +58,7 @@ impl Steps {
             ));
         }
         let last = self.player().map_or(0, |player| player.len());
-        Ok(range.map(|position| steps::numbered(path, position, last)).collect())
+        Ok(range.map(|position| numbered(path, position, last)).collect())
     }
 
     /// Writes the drawings on another thread.
@@ -71,24 +80,31 @@ impl Steps {
             return Err(problem);
         }
         let Some(mut player) = self.player().cloned() else { return Ok(()) };
-        let colors = view.level_colors(session.follower().settings());
-        let (range, ground, path) = (self.export_range(), view.ground, path.to_owned());
+        let ground = self.export_ground.unwrap_or(view.ground);
+        let deepest = deepest_level(session.follower().settings());
+        let levels = LevelColors::new(view.colormap, ground, deepest);
+        let (range, figure, path) = (self.export_range(), self.figure, path.to_owned());
         background.start(Aim::Export, &path.clone(), move |meter| {
             let [across, waiting, relinked] = Ground::ON_LEVELS;
-            let colors = steps::StepColors {
-                levels: colors.as_table(),
+            let colors = StepColors {
+                levels: levels.as_table(),
                 background: ground.canvas(),
                 text: if ground == Ground::Dark { ON_DARK } else { ON_LIGHT },
+                numbers: if ground == Ground::Dark { NUMBERS_ON_DARK } else { NUMBERS_ON_LIGHT },
                 parts: [waiting, relinked, across],
             };
+            let letters = WindowLetters::default();
             let mut written = WrittenSteps::default();
             for (position, file) in range.zip(&files) {
                 player.go_to(position);
-                let (mut drawing, is_new) = (Vec::new(), !io::exists(file));
-                let drawn = steps::write(&mut drawing, &player, &colors)
-                    .and_then(|()| io::write_file_metered(file, meter, |out| out.write_all(&drawing)));
-                match drawn {
-                    Ok(()) => _ = meter.add(drawing.len() as u64),
+                let is_new = !io::exists(file);
+                let drawing = drawing(&player, &names_of(&player, figure), &letters, &colors);
+                let written_bytes = encoded(&drawing, file).and_then(|bytes| {
+                    io::write_file_metered(file, meter, |out| out.write_all(&bytes))?;
+                    Ok(bytes.len())
+                });
+                match written_bytes {
+                    Ok(bytes) => _ = meter.add(bytes as u64),
                     Err(error) => return written.take_back(not_exported(&error, meter, file)),
                 }
                 if is_new { &mut written.new } else { &mut written.replaced }.push(file.clone());
@@ -98,6 +114,18 @@ impl Steps {
         });
         Ok(())
     }
+}
+
+/// Returns the bytes of the file of a drawing: a picture where its name ends in `.png`, and else an SVG.
+fn encoded(drawing: &Drawing, file: &Path) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    if file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        let image = picture_of(drawing, PX_PER_UNIT);
+        io::png::write_small(&mut bytes, image.size, &image.rgba)?;
+    } else {
+        drawing.write_svg(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 /// The drawings that are written so far.

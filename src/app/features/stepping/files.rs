@@ -6,9 +6,9 @@ use meshbrush_kit::kit::{FileAct, FileKind};
 
 /// Steps of the refinement, each to a file.
 pub static EXPORT_STEPS: FileKind = FileKind {
-    title: "Export steps as SVG",
+    title: "Export steps",
     act: FileAct::Export,
-    endings: || vec!["svg"],
+    endings: || vec!["svg", "png"],
     contents: "Drawings",
     folder: "exports",
     suffix: " step",

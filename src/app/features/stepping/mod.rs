@@ -16,13 +16,14 @@ mod panel;
 mod panel_export;
 mod picture;
 mod rows;
+pub mod sentence;
 mod steps;
 #[cfg(test)]
 mod tests;
 
 pub use bar::{HEIGHT as BAR_HEIGHT, step_bar};
 pub use command::StepCommand;
-pub use panel::{WIDTH, details, text_and_code, title};
+pub use panel::{details, text_and_code, title, width};
 pub use picture::paint;
 pub use steps::Steps;
 

@@ -14,8 +14,14 @@ use meshbrush_study::steps::{NeighbourCase, RecordedStep, StepAction, StepPlayer
 use meshbrush_ui::theme::{font, tokens};
 use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 
-/// Width of the panel, in points: a line of pseudo-code fits.
-pub const WIDTH: f32 = 488.0;
+/// Width of the panel, in points, and the most of the window that it takes.
+const WIDTH: f32 = 488.0;
+const MOST_OF_WINDOW: f32 = 0.45;
+
+/// Returns the width of the panel in the room that is left of the window, in points.
+pub fn width(ui: &Ui) -> f32 {
+    WIDTH.min(MOST_OF_WINDOW * ui.available_width())
+}
 
 /// Draws what the step does, and the lines that it runs.
 pub fn text_and_code(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -51,7 +57,7 @@ pub fn details(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
         Section::new("Changed rows").show(ui, |ui| rows::changed_rows(ui, player, state));
     }
-    panel_export::section(ui, steps, player.len(), commands);
+    panel_export::section(ui, state, steps, player.len(), commands);
 }
 
 /// Draws the title with the button that leaves the mode.
@@ -71,7 +77,7 @@ pub fn title(ui: &mut Ui, commands: &mut Vec<Command>) {
 }
 
 /// Describes the step in a sentence.
-fn sentence(player: &StepPlayer) -> String {
+pub(super) fn sentence(player: &StepPlayer) -> String {
     let at_end = player.position() == player.len();
     let (is_cut_short, limit) = (player.recording().is_cut_short, format::count(MOST_TRIANGLES as u64));
     match player.step() {

@@ -1,4 +1,4 @@
-//! Which steps to export.
+//! Which steps to export, and how.
 
 use eframe::egui::Ui;
 
@@ -6,15 +6,23 @@ use super::export::MOST_FILES;
 use super::files::EXPORT_STEPS;
 use super::{StepCommand, Steps};
 use meshbrush_kit::kit::command::{Command, FileCommand};
-use meshbrush_kit::kit::remark;
-use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, tips};
+use meshbrush_kit::kit::{FrameState, remark};
+use meshbrush_render::colormap::Ground;
+use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, segmented, tips};
 
-const NAME: &str = "Export steps as SVG…";
+const NAME: &str = "Export steps…";
+const GROUNDS: [(Ground, &str); 2] = [(Ground::Dark, "On dark"), (Ground::Light, "On light")];
 
-/// The first step, the last one, and the button that asks for the file.
-pub fn section(ui: &mut Ui, steps: &Steps, count: usize, commands: &mut Vec<Command>) {
+/// The first step, the last one, the ground, and the button that asks for the file.
+pub fn section(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    steps: &Steps,
+    count: usize,
+    commands: &mut Vec<Command>,
+) {
     Section::new("Export").closed().show(ui, |ui| {
-        let range = steps.export_range();
+        let (range, ground) = (steps.export_range(), steps.export_ground.unwrap_or(state.view.ground));
         let (mut first, mut last) = (*range.start() as f64, *range.end() as f64);
         let steps = 0.0..=count as f64;
         let from = NumberRow::new("From step", &mut first).range(steps.clone()).integer().show(ui);
@@ -22,6 +30,11 @@ pub fn section(ui: &mut Ui, steps: &Steps, count: usize, commands: &mut Vec<Comm
         if from.changed() || to.changed() {
             let command = StepCommand::ExportRange(first.max(0.0) as usize, last.max(0.0) as usize);
             commands.push(Command::from(command));
+        }
+        let mut ground = ground;
+        let response = segmented(ui, "Ground of the drawings", &mut ground, &GROUNDS);
+        if response.changed() {
+            commands.push(Command::from(StepCommand::ExportGround(ground)));
         }
         let files = range.count();
         ui.add_space(4.0);

@@ -2,23 +2,23 @@
 
 use std::collections::HashMap;
 
-use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui};
 
 use glam::DVec2;
 
 use super::Steps;
-use super::letters::{Letter, PlacedLetters};
+use super::letters::{LabelKind, PlacedLabels, StepLabel};
+use super::steps::names_of;
 use crate::app::features::stepping::Stepping;
 use meshbrush_kit::kit::marks::point_from_px;
 use meshbrush_kit::kit::{FrameState, marks};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_render::colormap::{Ground, LevelColors};
 use meshbrush_render::scene::Camera;
-use meshbrush_ui::theme::NUMBER_DISC;
-use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::theme::tokens;
 
 use meshbrush_study::report::ReportFigure;
-use meshbrush_study::steps::{Marked, NamedPlace, StepPart, StepPlayer, StepTriangle};
+use meshbrush_study::steps::{MOST_AVOIDED, Marked, NamedPlace, StepPart, StepPlayer, StepTriangle};
 
 /// Shortest leg of a triangle, in points, at which its number is drawn.
 const NUMBERED_LEG: f32 = 44.0;
@@ -32,8 +32,10 @@ const MOST_NUMBERS: usize = 600;
 const EDGE: Color32 = Color32::from_rgba_premultiplied(0x58, 0x5d, 0x66, 0xa0);
 /// Shortest leg of a triangle of the step at which its nodes are numbered.
 const NUMBERED_NODE_OF_STEP: f32 = 40.0;
-/// Room that a number of a triangle takes, in points.
-const NUMBER_ROOM: Vec2 = vec2(26.0, 14.0);
+/// Room for hints and the scale bar at the bottom of the canvas, in points: labels stay above it.
+const ROOM_BELOW: f32 = 52.0;
+/// The colour of numbers of triangles that the step is not about.
+const QUIET: Color32 = Color32::from_gray(0xe6);
 /// Width of the outline of a triangle of the step over its shortest edge.
 const LINE_SHARE: f32 = 0.06;
 /// Width of the outline of the domain, in points.
@@ -59,16 +61,13 @@ pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>, figure: Optio
     let (Some(player), Some(camera)) = (player, state.view.camera) else { return };
     let colors = state.view.level_colors(state.session.follower().settings());
     let marked = player.marked();
-    let mut places = Places::new(ui, response.rect, &camera, player, &marked);
+    let places = Places::new(ui, response.rect, &camera, player, &marked);
     let painter = &ui.painter_at(response.rect);
     places.paint_triangles(painter, &colors);
     paint_outline(ui, painter, response.rect, &camera, state);
     marked.iter().for_each(|one| places.paint_marked(painter, one));
     places.paint_moves(painter, player);
-    let letters = places.letters(painter, player, figure);
-    places.paint_node_numbers(painter, &letters);
-    places.paint_triangle_numbers(painter, &letters);
-    letters.paint(painter);
+    places.labels(painter, player, &marked, figure).paint(painter);
     if response.contains_pointer() {
         ui.ctx().set_cursor_icon(state.tools.tool.cursor);
     }
@@ -94,16 +93,14 @@ struct Places<'a> {
     triangles: Vec<StepTriangle>,
     /// The triangles that the step is about, by number.
     parts: HashMap<u32, StepPart>,
-    /// The nodes and triangles that have names, in place of mere numbers.
-    named: Vec<NamedPlace>,
 }
 
 impl<'a> Places<'a> {
     fn new(ui: &Ui, rect: Rect, camera: &'a Camera, player: &StepPlayer, marked: &[Marked]) -> Self {
-        let (triangles, named) = (player.triangles().collect(), Vec::new());
+        let triangles = player.triangles().collect();
         let px_per_point = ui.pixels_per_point();
         let parts = marked.iter().map(|one| (one.number, one.part)).collect();
-        let mut places = Self { rect, camera, px_per_point, nodes: Vec::new(), triangles, parts, named };
+        let mut places = Self { rect, camera, px_per_point, nodes: Vec::new(), triangles, parts };
         places.nodes = player.nodes().iter().map(|&node| places.on_screen(node)).collect();
         places
     }
@@ -165,37 +162,46 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Finds room for the names that text, data and code of the step use, and those of the figure.
-    fn letters(
-        &mut self,
+    /// Finds room for the names that text, data and code of the step use and those of the figure, and then
+    /// for numbers.
+    fn labels(
+        &self,
         painter: &Painter,
         player: &StepPlayer,
+        marked: &[Marked],
         figure: Option<ReportFigure>,
-    ) -> PlacedLetters {
-        let mut names = player.names();
-        if let Some(figure) = figure {
-            figure.add_letters(player, &mut names);
-        }
-        let letter = |(place, text): (NamedPlace, String)| {
+    ) -> PlacedLabels {
+        let names = names_of(player, figure);
+        let name = |(place, text): (NamedPlace, String)| {
             let corners: Vec<Pos2> =
                 player.points_of(place).into_iter().map(|point| self.on_screen(point)).collect();
             let part = match place {
                 NamedPlace::Triangle(number) => self.parts.get(&number),
                 _ => None,
             };
-            Letter { corners, text, color: part.map_or(Color32::WHITE, |part| color_of(*part)) }
+            let color = part.map_or(Color32::WHITE, |part| color_of(*part));
+            StepLabel { corners, text, color, kind: LabelKind::Name }
         };
-        let letters = names.labels().map(letter).collect();
-        self.named = names.labels().map(|(place, _)| place).collect();
-        PlacedLetters::new(painter, self.rect, letters)
+        let mut labels: Vec<StepLabel> = names.labels().map(name).collect();
+        let named: Vec<NamedPlace> = names.labels().map(|(place, _)| place).collect();
+        let mut numbers = self.triangle_numbers(&named);
+        numbers.extend(self.node_numbers(&named));
+        numbers.sort_by_key(|(is_of_step, _)| !is_of_step);
+        labels.extend(numbers.into_iter().map(|(_, label)| label));
+        let is_about = |one: &&Marked| !matches!(one.part, StepPart::Waiting | StepPart::Removed);
+        let corners = |one: &Marked| one.corners.map(|corner| self.on_screen(corner));
+        let avoided: Vec<_> = marked.iter().rev().filter(is_about).take(MOST_AVOIDED).map(corners).collect();
+        let area = self.rect.with_max_y((self.rect.bottom() - ROOM_BELOW).max(self.rect.top()));
+        PlacedLabels::new(painter, area, labels, &avoided)
     }
 
     /// Numbers the nodes between large triangles, and those of the triangles of the step, which the panel
-    /// names: a dot with the number above it.
-    fn paint_node_numbers(&self, painter: &Painter, letters: &PlacedLetters) {
+    /// names. Returns with each number whether the step is about it.
+    fn node_numbers(&self, named: &[NamedPlace]) -> Vec<(bool, StepLabel)> {
         let mut has_room = vec![false; self.nodes.len()];
-        let set = |has_room: &mut Vec<bool>, triangle: &StepTriangle, to: bool| {
-            triangle.nodes.into_iter().for_each(|node| has_room[node as usize - 1] = to);
+        let mut is_of_step = has_room.clone();
+        let set = |marks: &mut Vec<bool>, triangle: &StepTriangle, to: bool| {
+            triangle.nodes.into_iter().for_each(|node| marks[node as usize - 1] = to);
         };
         self.triangles.iter().for_each(|triangle| set(&mut has_room, triangle, true));
         for triangle in &self.triangles {
@@ -205,72 +211,52 @@ impl<'a> Places<'a> {
         }
         for triangle in self.triangles.iter().filter(|one| self.parts.contains_key(&one.number)) {
             if shortest_edge(&self.corners(triangle)) >= NUMBERED_NODE_OF_STEP {
-                set(&mut has_room, triangle, true);
+                set(&mut is_of_step, triangle, true);
             }
         }
-        let nodes = self.nodes.iter().enumerate();
-        let shown = nodes.filter(|(node, at)| {
-            has_room[*node]
-                && self.rect.contains(**at)
-                && !self.named.contains(&NamedPlace::Node(*node as u32 + 1))
-        });
-        for (node, &at) in shown.take(MOST_NUMBERS) {
-            painter.circle(at, 3.0, Color32::WHITE, Stroke::new(1.5, HALO));
-            let galley = painter.layout_no_wrap((node + 1).to_string(), font::caption(), Color32::WHITE);
-            let corner = pos2(at.x + 6.0, at.y - galley.size().y - 4.0);
-            let ground = Rect::from_min_size(corner, galley.size()).expand2(vec2(3.0, 1.0));
-            if !letters.are_covered_by(ground) {
-                painter.rect_filled(ground, 3.0, Color32::from_black_alpha(190));
-                painter.galley(corner, galley, Color32::WHITE);
-            }
-        }
+        let label = |(node, &at): (usize, &Pos2)| {
+            let is_shown = (has_room[node] || is_of_step[node])
+                && self.rect.contains(at)
+                && !named.contains(&NamedPlace::Node(node as u32 + 1));
+            let (text, color) = ((node + 1).to_string(), Color32::WHITE);
+            let label = StepLabel { corners: vec![at], text, color, kind: LabelKind::Node };
+            is_shown.then_some((is_of_step[node], label))
+        };
+        self.nodes.iter().enumerate().filter_map(label).take(MOST_NUMBERS).collect()
     }
 
-    fn paint_triangle_numbers(&self, painter: &Painter, letters: &PlacedLetters) {
-        let mut left = MOST_NUMBERS;
-        for triangle in &self.triangles {
+    /// Numbers the triangles that are large enough. Returns with each number whether the step is about it.
+    fn triangle_numbers(&self, named: &[NamedPlace]) -> Vec<(bool, StepLabel)> {
+        let label = |triangle: &StepTriangle| {
             let corners = self.corners(triangle);
             let part = self.parts.get(&triangle.number).copied();
             let needed = if part.is_some() { NUMBERED_LEG_OF_STEP } else { NUMBERED_LEG };
-            let is_shown = shortest_edge(&corners) >= needed && self.is_visible(&corners);
-            let at = middle(&corners);
-            let is_named = self.named.contains(&NamedPlace::Triangle(triangle.number))
-                || letters.are_covered_by(Rect::from_center_size(at, NUMBER_ROOM));
-            if is_shown && !is_named && left > 0 {
-                left -= 1;
-                paint_number(painter, at, triangle.number, part);
-            }
-        }
+            let is_shown = shortest_edge(&corners) >= needed
+                && self.is_visible(&corners)
+                && !named.contains(&NamedPlace::Triangle(triangle.number));
+            let (text, color) = (triangle.number.to_string(), part.map_or(QUIET, color_of));
+            let kind = if part.is_some() { LabelKind::OfStep } else { LabelKind::Triangle };
+            let label = StepLabel { corners: corners.to_vec(), text, color, kind };
+            is_shown.then_some((part.is_some(), label))
+        };
+        self.triangles.iter().filter_map(label).take(MOST_NUMBERS).collect()
     }
-}
-
-/// The number of a triangle: on a dark ground, in the colour of its part of the step.
-fn paint_number(painter: &Painter, at: Pos2, number: u32, part: Option<StepPart>) {
-    let (font, color) = match part {
-        Some(part) => (font::strong(), color_of(part)),
-        None => (font::caption(), Color32::from_gray(0xe6)),
-    };
-    let ground = if part.is_some() { NUMBER_DISC } else { Color32::from_black_alpha(150) };
-    marks::paint_number(painter, at, number, font, color, ground);
 }
 
 fn shortest_edge([a, b, c]: &[Pos2; 3]) -> f32 {
     a.distance(*b).min(b.distance(*c)).min(c.distance(*a))
 }
 
-fn middle([a, b, c]: &[Pos2; 3]) -> Pos2 {
-    pos2((a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::pos2;
 
     #[test]
-    fn the_shortest_edge_and_the_middle_do_not_depend_on_the_order_of_corners() {
+    fn the_shortest_edge_does_not_depend_on_the_order_of_corners() {
         let [a, b, c] = [pos2(0.0, 0.0), pos2(3.0, 0.0), pos2(0.0, 6.0)];
         for corners in [[a, b, c], [b, c, a], [c, a, b], [c, b, a]] {
-            assert_eq!((shortest_edge(&corners), middle(&corners)), (3.0, pos2(1.0, 2.0)), "{corners:?}");
+            assert_eq!(shortest_edge(&corners), 3.0, "{corners:?}");
         }
     }
 }

@@ -11,8 +11,9 @@ use meshbrush_kit::kit::document_id::DocumentId;
 use meshbrush_kit::kit::jobs::{Jobs, Slot};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::mesh::{Mesh, Progress, barycentric};
+use meshbrush_render::colormap::Ground;
 use meshbrush_study::report::ReportFigure;
-use meshbrush_study::steps::{Recording, StepAction, StepPlayer, StepRecorder};
+use meshbrush_study::steps::{Names, Recording, StepAction, StepPlayer, StepRecorder};
 
 /// A mesh with more triangles is recorded up to here: nobody follows more steps.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -28,7 +29,7 @@ pub struct Steps {
     document: DocumentState,
     recording: Slot<(), Result<Recorded, String>>,
     /// The figure of the report that the first step shown is to show.
-    figure: Option<ReportFigure>,
+    pub(super) figure: Option<ReportFigure>,
     /// The point, in world units, to whose triangle the first step shown belongs.
     queried: Option<DVec2>,
     /// How many steps are done at first, where that was asked for.
@@ -41,6 +42,8 @@ pub struct Steps {
     pub only_bisections: bool,
     /// The first and the last step to be exported.
     pub(super) export_range: [usize; 2],
+    /// The ground of exported drawings, where it was chosen; else that of the window.
+    pub(super) export_ground: Option<Ground>,
 }
 
 /// What was recorded on another thread.
@@ -79,6 +82,7 @@ impl Steps {
             speed: SPEEDS[1].0,
             only_bisections: false,
             export_range: [0, FIRST_EXPORTED],
+            export_ground: None,
         }
     }
 
@@ -197,6 +201,15 @@ impl Steps {
             ctx.request_repaint_after(Duration::from_secs_f64(1.0 / self.speed));
         }
     }
+}
+
+/// Returns the letters of a step: those of its lines, and of a figure of the report that is shown.
+pub fn names_of(player: &StepPlayer, figure: Option<ReportFigure>) -> Names {
+    let mut names = player.names();
+    if let Some(figure) = figure {
+        figure.add_letters(player, &mut names);
+    }
+    names
 }
 
 /// Goes so many steps forwards or backwards, or so many that change the mesh: where no more follow, to the

@@ -1,13 +1,18 @@
 //! The walk of point location, and the trail of neighbours.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable as _;
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 
 use crate::app::features::inspection::QUERY;
-use crate::app::tests::{TALL, Window, choose, click, key, selected, send, value_of, wait_until, window_of};
+use crate::app::features::report::FigureCommand;
+use crate::app::tests::{
+    TALL, Window, choose, click, key, on_screen, painted_shapes, selected, send, value_of, wait_until,
+    window_of,
+};
 use meshbrush_kit::kit::command::{Command, ShellCommand};
+use meshbrush_study::report::ReportFigure;
 
 #[test]
 fn the_tab_method_says_how_long_the_walk_is_and_a_toggle_hides_it() {
@@ -50,4 +55,30 @@ fn with_shift_the_trail_of_neighbours_stays_until_the_next_query() {
     assert_eq!(trail(&window), 2);
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert_eq!((trail(&window), selected(&window)), (0, None));
+}
+
+#[test]
+fn the_walk_passes_below_the_number_of_the_neighbour_that_it_enters_through() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::from(FigureCommand::Open(ReportFigure::Orientation)));
+    window.run();
+    let session = window.state().session();
+    let path = session.mesh().walk_path(session.queried().unwrap());
+    let [.., neighbour, last] = path[..] else { panic!("{path:?}") };
+    let place = session.view().neighbours(last).iter().position(|one| one.triangle() == Some(neighbour));
+    let number = (place.expect("it is a neighbour") + 1).to_string();
+    let middle = session.view().world_corners(neighbour).iter().sum::<DVec2>() / 3.0;
+    let at = on_screen(&window, middle);
+    let shapes = painted_shapes(window.output());
+    let of_number = shapes.iter().rposition(|shape| match shape {
+        Shape::Text(text) => text.galley.text() == number && shape.visual_bounding_rect().contains(at),
+        _ => false,
+    });
+    let of_number = of_number.expect("the neighbour has its number");
+    let is_dot = |shape: &&Shape| match shape {
+        Shape::Circle(circle) => circle.radius < 4.0 && circle.center.distance(at) < 6.0,
+        _ => false,
+    };
+    assert!(!shapes[of_number..].iter().any(is_dot), "no dot covers the number");
+    assert!(shapes[..of_number].iter().any(is_dot), "the walk is there");
 }
