@@ -19,7 +19,8 @@ use meshbrush_io::io::{
 };
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
-use meshbrush_render::render::export::{ExportFormat, Look, NO_SVG_IN_SPACE};
+use meshbrush_render::render::export::{ExportFormat, NO_SVG_IN_SPACE};
+use meshbrush_render::render::look::Look;
 
 /// Most files that one command writes.
 const MOST_FILES: usize = 1000;
@@ -127,8 +128,11 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         flat,
         size,
         edges,
+        dpi,
         colormap,
         light,
+        ground,
+        furniture,
         view,
         azimuth,
         altitude,
@@ -150,7 +154,10 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         ("size", size.is_some()),
         ("edges", edges.is_some()),
         ("colormap", colormap.is_some()),
+        ("dpi", dpi.is_some()),
         ("light", light.is_some()),
+        ("ground", ground.is_some()),
+        ("furniture", furniture.is_some()),
         ("view", view.is_some()),
         ("azimuth", azimuth.is_some()),
         ("altitude", altitude.is_some()),

@@ -40,7 +40,8 @@ pub fn write(typed: &ThumbnailArguments, terminal: &mut Terminal) -> Result<(), 
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
     let look = files.look_for(&finished, &extract)?;
-    let picture = look.draw(finished.mesh(), &extract);
+    let picture =
+        look.draw(finished.mesh(), &extract).map_err(|error| failed(&typed.output, error.to_string()))?;
     let mut bytes = Vec::new();
     let written = png::write(&mut bytes, picture.size, &picture.rgba).and_then(|()| {
         end.is_near();

@@ -8,11 +8,16 @@
 
 mod draw_flags;
 pub mod export;
+pub mod furniture;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod look;
 pub mod north_arrow;
 pub mod path_export;
+pub mod picture_size;
 pub mod software;
+pub mod space_look;
+mod vector_picture;
 
 /// Triangles of at least this size in pixels are drawn pixel by pixel from the exact lines through their
 /// edges. Rasterizing such triangles from their corners in f32 or fixed-point numbers would shift an edge. At
@@ -23,7 +28,7 @@ const HUGE_PX: f32 = 4096.0;
 /// 1/256 px; the overlap closes the gap.
 const SEAM_SLACK_PX: f32 = 1.0 / 64.0;
 
-/// An opaque picture.
+/// A picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// Width and height in pixels.
