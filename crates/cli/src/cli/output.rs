@@ -310,3 +310,45 @@ impl RequestedLook {
 fn theme(is_light: bool) -> PictureGround {
     if is_light { PictureGround::Light } else { PictureGround::Dark }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::OsString;
+
+    use super::super::args::{Arguments, Command};
+    use super::*;
+
+    fn look(options: &str) -> Result<RequestedLook, String> {
+        let words = format!("meshbrush mesh {options}");
+        let words: Vec<OsString> = words.split(' ').map(OsString::from).collect();
+        let read = Arguments::read(&words).map_err(|error| error.to_string())?;
+        let Some(Command::Mesh(typed)) = read.command else { panic!("{options}") };
+        RequestedLook::new(&typed.picture).map_err(|failure| failure.to_string())
+    }
+
+    #[test]
+    fn options_of_pictures_say_the_look() {
+        let usual = look("-o m.png").unwrap();
+        assert_eq!((usual.size, usual.furniture), (PictureSize::of_width(1600), None));
+        assert_eq!(usual.ground, PictureGround::Dark);
+        let given = look("--size 6in --dpi 100 --ground transparent --furniture legend,north").unwrap();
+        assert_eq!((given.size.width, given.ground), (600, PictureGround::Transparent));
+        assert_eq!(given.furniture, Some(Furniture { legend: true, north: true, ..Furniture::NONE }));
+        assert_eq!(look("--light").unwrap().ground, PictureGround::Light);
+    }
+
+    #[test]
+    fn options_of_pictures_are_refused_with_their_names() {
+        for (options, sentence) in [
+            ("--size 0", "--size 0: write a width"),
+            ("--size 9999in", "--size 9999in: 9999 in are"),
+            ("--dpi 5", "--dpi: 5 dots per inch are not possible"),
+            ("--ground green", "--ground: “green” is no ground"),
+            ("--furniture grid", "--furniture: “grid” is none of"),
+            ("--light --ground white", "cannot be used with"),
+        ] {
+            let refused = look(options).unwrap_err();
+            assert!(refused.contains(sentence), "{options}: {refused}");
+        }
+    }
+}

@@ -17,6 +17,8 @@ pub mod path_export;
 pub mod picture_size;
 pub mod software;
 pub mod space_look;
+#[cfg(test)]
+mod picture_tests;
 mod vector_picture;
 
 /// Triangles of at least this size in pixels are drawn pixel by pixel from the exact lines through their

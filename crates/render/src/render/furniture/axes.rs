@@ -7,6 +7,8 @@ use meshbrush_mesh::text::{LengthUnit, decimals_for, fixed, tick_step};
 
 /// Least distance between labelled ticks, in heights of the text: across, and upwards.
 const GAPS: [f64; 2] = [4.5, 3.2];
+/// Most labels of an axis in a plane.
+const MOST_LABELS: f64 = 12.0;
 /// Least space between two labels below the map, in heights of the text.
 const LABEL_GAP: f64 = 1.2;
 /// Most ticks of an axis: where coordinates are too coarse for a step, there are none.
@@ -57,7 +59,7 @@ fn even_ticks(camera: &Camera, axis: usize, text_px: f64) -> Vec<MapTick> {
     let bounds = camera.lattice().bounds();
     let (from, to) = (bounds.min[axis], bounds.max[axis]);
     let label = |value: f64, step: f64| fixed(value, decimals_for(step));
-    let mut gap = GAPS[axis] * text_px;
+    let mut gap = (GAPS[axis] * text_px).max((to - from) * camera.px_per_world() / MOST_LABELS);
     let mut chosen = tick_step(gap / camera.px_per_world());
     if axis == 0 {
         // Wider labels need more room, and a larger step may need fewer decimals.

@@ -39,7 +39,7 @@ impl fmt::Display for Furniture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names: Vec<&str> = self.names().collect();
         f.write_str(if names.is_empty() { "none" } else { "" })?;
-        f.write_str(&names.join(","))
+        f.write_str(&names.join(", "))
     }
 }
 

@@ -39,6 +39,8 @@ impl<'a> Drawing<'a> {
     pub(super) const TO_LABEL: f64 = TICKS[0] + TICK_GAP;
     /// Height of the title of an axis, with the space before it.
     pub(super) const TITLE: f64 = 1.45;
+    /// From the map up to the baseline of the title above it: over the uppermost label.
+    const TO_TITLE: f64 = 0.95;
 
     /// Returns the drawing of what an arrangement has places for.
     pub(super) fn of(places: &'a Arrangement, content: &SheetContent) -> Self {
@@ -106,7 +108,7 @@ impl<'a> Drawing<'a> {
             let below = Self::TO_LABEL + glyphs::CAPITAL + Self::TITLE;
             let middle = dvec2(0.5 * (low.x + high.x), high.y + below * em);
             self.text(middle, Align::Middle, &x, self.inks.quiet);
-            let above = dvec2(low.x - Self::TO_LABEL * em, low.y - 0.5 * em - half.y);
+            let above = dvec2(low.x - Self::TO_LABEL * em, low.y - Self::TO_TITLE * em);
             // Over the labels where it fits there, else along the map.
             let room = above.x - (f64::from(self.places.map_at[0]) - self.places.around.margins.left);
             let fits = glyphs::width(&y, em) <= room;
