@@ -125,7 +125,13 @@ pub use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 #[doc(inline)]
 pub use meshbrush_render::render::Image;
 #[doc(inline)]
-pub use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look, SpaceLook, UnknownEnding};
+pub use meshbrush_render::render::export::{ExportFormat, UnknownEnding};
+pub use meshbrush_render::render::furniture::{Furniture, NoRoom, UnknownFurniture};
+pub use meshbrush_render::render::look::{Look, MapPlace};
+pub use meshbrush_render::render::picture_size::{
+    LARGEST_PICTURE, PaperSize, PaperUnit, PictureGround, PictureSize, SizeError, UnknownGround,
+};
+pub use meshbrush_render::render::space_look::SpaceLook;
 #[doc(inline)]
 pub use meshbrush_render::scene::{HeightScale, Light, NodeHeights, ViewDirection};
 

@@ -354,10 +354,7 @@ impl Mesh {
         let shared = slf.get().0.clone();
         let look = look_of(output)?;
         let picture = run(slf.py(), &Watching::QUIET, move |_| {
-            let mesh = shared.finished.mesh();
-            shared.with_extract(|extract| {
-                look.look_for(&shared.finished, extract).map(|look| look.draw(mesh, extract))
-            })
+            shared.with_extract(|extract| look.picture_of(&shared.finished, extract))
         })?
         .map_err(mesh_error)?;
         let [width, height] = picture.size.map(|side| side as usize);
@@ -370,10 +367,7 @@ impl Mesh {
         let shared = slf.get().0.clone();
         let look = look_of(output)?;
         let bytes = run(slf.py(), &Watching::QUIET, move |_| {
-            let mesh = shared.finished.mesh();
-            let picture = shared.with_extract(|extract| {
-                look.look_for(&shared.finished, extract).map(|look| look.draw(mesh, extract))
-            });
+            let picture = shared.with_extract(|extract| look.picture_of(&shared.finished, extract));
             picture.map(|picture| {
                 let mut bytes = Vec::new();
                 meshbrush_io::io::png::write(&mut bytes, picture.size, &picture.rgba).map(|()| bytes)

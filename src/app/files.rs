@@ -31,7 +31,9 @@ use meshbrush_kit::kit::view::{Space, View};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Fingerprint, MeshView};
 use meshbrush_mesh::text::{Bytes, Grouped};
-use meshbrush_render::render::export::{ExportFormat, Look, SpaceLook};
+use meshbrush_render::render::export::ExportFormat;
+use meshbrush_render::render::look::Look;
+use meshbrush_render::render::space_look::SpaceLook;
 use meshbrush_render::scene::NodeHeights;
 use meshbrush_ui::widgets::format;
 
@@ -197,7 +199,7 @@ pub fn export(
     let (field, settings) = (session.follower().field().clone(), session.follower().settings().clone());
     let (paint, rule) = (session.document().paint().clone(), settings.rule);
     let surface = session.follower().surface().cloned();
-    let look = view.picture(session.document().settings());
+    let look = view.picture_of(session.document().settings());
     let is_picture = matches!(format, ExportFormat::Png | ExportFormat::Svg);
     let space = is_picture.then_some(view.space).filter(|space| space.is_on);
     let file = path.to_owned();

@@ -279,6 +279,7 @@ impl App {
             let facts = FileFacts {
                 triangles: self.session.triangle_count(),
                 settings: self.session.document().settings(),
+                picture: self.view.picture,
                 reads: &reads,
             };
             self.dialogs.show_file(ctx, &facts, commands);

@@ -6,7 +6,8 @@ use glam::{DVec2, dvec2};
 use super::graticule;
 use meshbrush_core::earth::{DegreeStyle, EarthPlane};
 use meshbrush_kit::kit::{FrameState, marks};
-use meshbrush_mesh::text::{LengthUnit, round_below};
+use meshbrush_mesh::text::{LengthUnit, tick_step};
+use meshbrush_render::render::furniture::ScaleBar;
 use meshbrush_render::render::north_arrow::north_arrow;
 use meshbrush_render::scene::Camera;
 use meshbrush_ui::theme::{font, tokens};
@@ -25,21 +26,6 @@ const TICKS: [f32; 2] = [7.0, 4.0];
 const LONGEST_BAR: f32 = 132.0;
 /// Space around the scale bar in its box, in points.
 const BAR_MARGIN: Vec2 = vec2(10.0, 7.0);
-
-/// Returns the smallest of 1, 2 and 5 times a power of ten that is at least `limit`, and into how many parts
-/// smaller ticks divide it.
-fn tick_step(limit: f64) -> (f64, u32) {
-    let below = round_below(limit);
-    let leading = below / 10_f64.powf(below.log10().floor());
-    let step = match leading.round() as u32 {
-        _ if below >= limit * (1.0 - 1e-12) => below,
-        1 => 2.0 * below,
-        2 => 2.5 * below,
-        _ => 2.0 * below,
-    };
-    let leading = step / 10_f64.powf((step.log10() + 1e-9).floor());
-    (step, if leading.round() as u32 == 2 { 4 } else { 5 })
-}
 
 /// A side of the canvas with ticks.
 #[derive(Clone, Copy)]
@@ -85,16 +71,16 @@ pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>)
 
 /// Ticks where meridians leave the canvas at the top and parallels at the left.
 fn paint_degrees(ui: &Ui, rect: Rect, camera: &Camera, plane: EarthPlane, style: DegreeStyle) {
-    let screen = camera.screen_map();
-    for line in graticule::lines_across(ui, plane, camera.visible_world(), style).iter() {
+    let (screen, visible) = (camera.screen_map(), camera.visible_world());
+    for line in graticule::lines_across(ui, plane, visible, style).iter() {
         let side = if line.is_meridian { Side::Top } else { Side::Left };
         let (axis, value) = match side {
-            Side::Top => (1, rect.top()),
-            Side::Left => (0, rect.left()),
+            Side::Top => (1, visible.max.y),
+            Side::Left => (0, visible.min.x),
         };
-        let at = |&world: &DVec2| marks::point_from_px(rect, screen(world), ui.pixels_per_point());
-        let points: Vec<Pos2> = line.points.iter().map(at).collect();
-        if let Some(start) = graticule::crossing(&points, axis, value).filter(|at| rect.contains(*at)) {
+        let at = |world: DVec2| marks::point_from_px(rect, screen(world), ui.pixels_per_point());
+        let start = line.crossings(axis, value).map(at).find(|at| rect.expand(0.5).contains(*at));
+        if let Some(start) = start {
             paint_tick(ui, start, side, TICKS[0]);
             paint_tick_label(ui, rect, start, side, &line.label);
         }
@@ -174,11 +160,11 @@ pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, state: &FrameState<
     let px_per_point = f64::from(ui.pixels_per_point());
     let (center, domain) = (camera.visible_world().center(), &state.session.document().settings().domain);
     let points_per_length = domain.in_plane(camera.px_per_world() / px_per_point, center);
-    let length = round_below(f64::from(LONGEST_BAR) / points_per_length);
-    let text = bar_text(length, state.unit(), center.y);
+    let Some(bar) = ScaleBar::new(points_per_length, LONGEST_BAR.into(), state.unit()) else { return };
+    let text = bar_text(&bar, state.unit(), center.y);
     let t = tokens(ui);
     let text_size = ui.painter().layout_no_wrap(text.clone(), font::small_value(), t.label).size();
-    let bar = (length * points_per_length) as f32;
+    let bar = bar.length_px as f32;
     let size = vec2(bar.max(text_size.x), text_size.y + 8.0) + 2.0 * BAR_MARGIN;
     let place = Rect::from_min_size(inner.right_bottom() - size, size);
     if let Some(north) = domain.projection.and_then(|projection| projection.north_at(center)) {
@@ -220,15 +206,11 @@ fn show_north(ui: &Ui, corner: Pos2, north: DVec2) {
     }
 }
 
-/// Returns a length, and for degrees about how many kilometres it is along a parallel at a latitude.
-fn bar_text(length: f64, unit: LengthUnit, latitude: f64) -> String {
-    let is_long = unit == LengthUnit::Metre && length >= 1000.0;
-    let text = match is_long {
-        true => format::length(length / 1000.0, LengthUnit::Kilometre),
-        false => format::length(length, unit),
-    };
+/// Returns the length of a bar, and for degrees about how many kilometres it is along a parallel at a
+/// latitude.
+fn bar_text(ScaleBar { text, length, .. }: &ScaleBar, unit: LengthUnit, latitude: f64) -> String {
     if unit != LengthUnit::Degree || latitude.abs() > 89.0 {
-        return text;
+        return text.clone();
     }
     let km = length * KM_PER_DEGREE * latitude.to_radians().cos();
     let ground = if km < 1.0 {
@@ -244,22 +226,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_no_closer_than_asked() {
-        for (limit, step, parts) in
-            [(1.0, 1.0, 5), (1.1, 2.0, 4), (2.1, 5.0, 5), (5.5, 10.0, 5), (0.03, 0.05, 5)]
-        {
-            let (found, divided) = tick_step(limit);
-            assert!((found / step - 1.0).abs() < 1e-9, "{limit}: {found}");
-            assert_eq!(divided, parts, "{limit}");
-        }
-    }
-
-    #[test]
     fn a_degree_is_also_given_in_kilometres_at_the_latitude() {
-        assert_eq!(bar_text(1.0, LengthUnit::Degree, 0.0), "1° ≈ 110 km");
-        assert_eq!(bar_text(0.001, LengthUnit::Degree, 60.0), "0.001° ≈ 56 m");
-        assert_eq!(bar_text(2.0, LengthUnit::Kilometre, 60.0), "2 km");
-        assert_eq!(bar_text(50_000.0, LengthUnit::Metre, 0.0), "50 km");
-        assert_eq!(bar_text(500.0, LengthUnit::Metre, 0.0), "500 m");
+        let text = |length: f64, unit, latitude| {
+            bar_text(&ScaleBar::new(1.0 / length, 1.0, unit).unwrap(), unit, latitude)
+        };
+        assert_eq!(text(1.0, LengthUnit::Degree, 0.0), "1° ≈ 110 km");
+        assert_eq!(text(0.001, LengthUnit::Degree, 60.0), "0.001° ≈ 56 m");
+        assert_eq!(text(2.0, LengthUnit::Kilometre, 60.0), "2 km");
+        assert_eq!(text(50_000.0, LengthUnit::Metre, 0.0), "50 km");
+        assert_eq!(text(500.0, LengthUnit::Metre, 0.0), "500 m");
     }
 }

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Align2, Id, Pos2, Rect, Ui, pos2};
+use eframe::egui::{Align2, Id, Pos2, Rect, Ui};
+use glam::DVec2;
 
 use super::coordinates::paint_label;
 use meshbrush_core::earth::{DegreeStyle, EarthPlane, GraticuleLine, graticule};
@@ -31,13 +32,16 @@ pub fn paint(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
         let colors = [t.canvas.gamma_multiply(0.35), t.value.gamma_multiply(0.38)];
         marks::paint_quiet_line(&painter, points.iter().copied(), colors);
     }
-    for (points, line) in &lines {
-        let (axis, side, align) = match line.is_meridian {
-            true => (1, rect.bottom() - FROM_SIDES[1], Align2::CENTER_BOTTOM),
-            false => (0, rect.right() - FROM_SIDES[0], Align2::RIGHT_CENTER),
+    let from_corner = FROM_SIDES.map(|points| f64::from(points * ui.pixels_per_point()));
+    let corner = camera.size_px().map(f64::from);
+    let side = camera.world_from_screen(DVec2::from(corner) - DVec2::from(from_corner));
+    for (_, line) in &lines {
+        let (axis, align) = match line.is_meridian {
+            true => (1, Align2::CENTER_BOTTOM),
+            false => (0, Align2::RIGHT_CENTER),
         };
-        if let Some(place) = crossing(points, axis, side) {
-            paint_label(ui, rect, place, align, &line.label);
+        if let Some(place) = line.crossings(axis, side[axis]).next() {
+            paint_label(ui, rect, at(place), align, &line.label);
         }
     }
 }
@@ -61,16 +65,4 @@ pub fn lines_across(
     let lines = Arc::new(graticule(plane, area, style));
     ui.data_mut(|data| data.insert_temp(id, (key, lines.clone())));
     lines
-}
-
-/// Returns where a line first crosses a line of the screen: x or y, by the number of the axis.
-pub fn crossing(points: &[Pos2], axis: usize, value: f32) -> Option<Pos2> {
-    points.windows(2).find_map(|pair| {
-        let [from, to] = [pair[0][axis] - value, pair[1][axis] - value];
-        if from * to > 0.0 || from == to {
-            return None;
-        }
-        let at = pair[0] + (pair[1] - pair[0]) * (from / (from - to));
-        Some(pos2(at.x, at.y))
-    })
 }

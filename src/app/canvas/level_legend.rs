@@ -7,8 +7,8 @@ use eframe::egui::{
 use super::legend::{MARGIN, ROW, TITLE, boxed, place_of};
 use meshbrush_kit::kit::FrameState;
 use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_render::render::furniture::{LevelLegend, LevelRow};
 use meshbrush_ui::theme::{font, tokens};
-use meshbrush_ui::widgets::format;
 
 /// Width of the rows, in points: beside a square domain there is room for them.
 const WIDTH: f32 = 126.0;
@@ -30,24 +30,20 @@ pub fn show(
     state: &FrameState<'_>,
     commands: &mut Vec<Command>,
 ) -> Option<(Rect, Option<u32>)> {
-    let levels: Vec<u32> =
-        (0..counts.len()).filter(|&level| counts[level] > 0).map(|level| level as u32).collect();
-    let height = ROW * levels.len() as f32;
+    let mesh = state.session.mesh();
+    let LevelLegend { title, rows } = LevelLegend::new(counts, |level| mesh.diameter(level), state.unit());
+    let height = ROW * rows.len() as f32;
     let place = place_of(inner, vec2(WIDTH, height));
     let has_room = WIDTH <= MOST[0] * inner.width()
         && TITLE + height <= MOST[1] * inner.height()
         && !uncovered.is_some_and(|mesh| mesh.intersects(place));
-    if levels.is_empty() || state.session.awaits_mesh() || !has_room {
+    if rows.is_empty() || state.session.awaits_mesh() || !has_room {
         return None;
     }
-    let title = match state.unit().symbol() {
-        "" => "Level, diameter, count".to_owned(),
-        unit => format!("Level, diameter in {unit}, count"),
-    };
     let within = boxed(ui, inner, vec2(WIDTH, height), &title, "Legend: levels of the mesh");
     let colors = state.view.level_colors(state.session.follower().settings());
     let mut hovered = None;
-    for (row, &level) in levels.iter().enumerate() {
+    for (row, LevelRow { level, texts }) in rows.into_iter().enumerate() {
         let place = Rect::from_min_size(within.min + vec2(0.0, ROW * row as f32), vec2(within.width(), ROW));
         let response = ui.interact(place, ui.scope_id().with(("level on the canvas", level)), Sense::click());
         let name = format!("Show level {level} alone");
@@ -63,11 +59,6 @@ pub fn show(
             commands.push(Command::from(ViewCommand::IsolateLevel(level)));
         }
         let [r, g, b, _] = colors.of(level as u8);
-        let texts = [
-            level.to_string(),
-            format::digits(state.session.mesh().diameter(level), 3),
-            short_count(counts[level as usize]),
-        ];
         let is_shown = state.view.hidden_levels >> level.min(63) & 1 == 0;
         paint_row(ui, place, Color32::from_rgb(r, g, b), texts, [is_shown, hovered == Some(level)]);
         response.on_hover_text_at_pointer(if is_shown && state.view.hidden_levels != 0 {
@@ -91,13 +82,5 @@ fn paint_row(ui: &Ui, place: Rect, color: Color32, texts: [String; 3], [is_shown
     for ((end, text), ink) in ends.into_iter().zip(texts).zip([t.label, t.value, t.label]) {
         let at = pos2(end, place.center().y);
         ui.painter().text(at, Align2::RIGHT_CENTER, text, font::axis(), ink.gamma_multiply(opacity));
-    }
-}
-
-/// Returns a count in at most seven letters.
-fn short_count(count: usize) -> String {
-    match count {
-        0..1_000_000 => format::count(count as u64),
-        _ => format!("{:.1} M", count as f64 / 1e6),
     }
 }

@@ -9,7 +9,7 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
-use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
 use meshbrush_kit::kit::platform::IS_PAGE;
 use meshbrush_kit::kit::{CatalogItem, FrameState, Menu};
 
@@ -66,6 +66,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(File, "Export mesh…", Command::from(FileCommand::Ask(&EXPORT_MESH)))
             .ctrl(Key::E)
             .group(),
+        CatalogItem::new(File, "Picture options…", Command::from(ShellCommand::AskPicture)),
         CatalogItem::new(File, "Export path…", Command::from(FileCommand::Ask(&EXPORT_PATH)))
             .enabled(has_paths),
         CatalogItem::new(File, "Export as test…", Command::from(FileCommand::Ask(&EXPORT_TEST))),

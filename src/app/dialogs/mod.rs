@@ -6,6 +6,7 @@ mod endings;
 mod file;
 mod folders;
 mod go_to;
+mod pictures;
 mod start;
 mod system;
 
@@ -44,6 +45,8 @@ pub enum Dialog {
     About,
     /// The question for a place on the canvas.
     GoTo,
+    /// The choices for exported pictures.
+    Pictures,
     /// The page of what a new document can start from.
     Start,
 }
@@ -196,6 +199,7 @@ impl Dialogs {
             Some(Dialog::Palette) => palette(ctx, &catalog(state), commands),
             Some(Dialog::About) => about(ctx, commands),
             Some(Dialog::GoTo) => go_to::ask(ctx, state, commands),
+            Some(Dialog::Pictures) => pictures::ask(ctx, state, commands),
             Some(Dialog::Start) => start::show(ctx, state, commands),
             None => {
                 if let Some(file) = self.data.front() {
@@ -208,7 +212,7 @@ impl Dialogs {
     /// Shows the question for a file.
     pub fn show_file(&mut self, ctx: &Context, facts: &FileFacts<'_>, commands: &mut Vec<Command>) {
         let Some(file) = self.file.as_mut().filter(|file| file.is_shown()) else { return };
-        match file.show(ctx, facts) {
+        match file.show(ctx, facts, commands) {
             FileAnswer::Open => {}
             FileAnswer::Closed => commands.push(Command::from(ShellCommand::CloseDialog)),
             FileAnswer::CancelWork(id) => commands.push(Command::from(FileCommand::CancelWork(id))),

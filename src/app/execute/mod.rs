@@ -94,6 +94,7 @@ impl App {
             ShellCommand::Escape => self.escape(ctx),
             ShellCommand::Palette => self.dialogs.open(Dialog::Palette),
             ShellCommand::About => self.dialogs.open(Dialog::About),
+            ShellCommand::AskPicture => self.dialogs.open(Dialog::Pictures),
             ShellCommand::AskPlace => self.dialogs.open(Dialog::GoTo),
             ShellCommand::AskPlaceNear(point) => {
                 fill_in_place(ctx, self.view.typed_point(point));

@@ -1,20 +1,24 @@
 //! Output files: checks before the work, and the look of pictures.
 
+use std::fmt::Display;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::build::FinishedMesh;
 use super::failure::Failure;
 use super::space_look::RequestedSpace;
 use super::standard_output::StandardOutput;
+use meshbrush_core::earth::DegreeStyle;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{KeyFault, MeshData, Meter, ThirdCoordinate, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
-use meshbrush_mesh::text::{Grouped, Number};
-use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
-use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look};
+use meshbrush_mesh::text::Number;
+use meshbrush_render::colormap::{Colormap, LevelColors, UnknownColormap};
+use meshbrush_render::render::export::ExportFormat;
+use meshbrush_render::render::furniture::{Furniture, UnknownFurniture};
+use meshbrush_render::render::look::{Look, MapPlace};
+use meshbrush_render::render::picture_size::{PictureGround, PictureSize, SizeError, UnknownGround};
 
 /// A file to be written, or standard output.
 #[derive(Debug)]
@@ -206,11 +210,11 @@ pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
 /// The look that is asked for, before there is a mesh.
 #[derive(Debug)]
 pub struct RequestedLook {
-    width: u32,
-    height: Option<u32>,
+    size: PictureSize,
     edges: bool,
     colormap: Colormap,
-    ground: Ground,
+    ground: PictureGround,
+    furniture: Option<Furniture>,
     space: Option<RequestedSpace>,
 }
 
@@ -218,13 +222,22 @@ impl RequestedLook {
     /// Returns the look that the arguments describe.
     ///
     /// # Errors
-    /// Fails when the size or the name of the colour map is invalid.
+    /// Fails when the size, or the name of a colour map, of a ground or of furniture is invalid.
     pub fn new(typed: &PictureArguments) -> Result<Self, Failure> {
-        let size = parse_size(&typed.size);
-        let size = size.map_err(|rule| Failure::Usage(format!("--size {}: {rule}", typed.size)))?;
-        let colormap = typed.colormap.parse();
-        let colormap = colormap.map_err(|error| Failure::Usage(format!("--colormap: {error}")))?;
-        Ok(Self::of(size, !typed.no_edges, colormap, typed.light))
+        let size = PictureSize::parse(&typed.size, typed.dpi).map_err(|error| {
+            Failure::Usage(match error {
+                SizeError::DotsPerInch(_) => format!("--dpi: {error}"),
+                _ => format!("--size {}: {error}", typed.size),
+            })
+        })?;
+        let usage = |option: &str, error: &dyn Display| Failure::Usage(format!("--{option}: {error}"));
+        let colormap = typed.colormap.parse().map_err(|error: UnknownColormap| usage("colormap", &error))?;
+        let ground = typed.ground.as_deref().map(str::parse).transpose();
+        let ground = ground.map_err(|error: UnknownGround| usage("ground", &error))?;
+        let furniture = typed.furniture.as_deref().map(str::parse).transpose();
+        let furniture = furniture.map_err(|error: UnknownFurniture| usage("furniture", &error))?;
+        let ground = ground.unwrap_or_else(|| theme(typed.light));
+        Ok(Self { size, edges: !typed.no_edges, colormap, ground, furniture, space: None })
     }
 
     /// Returns the look that an output of a recipe describes.
@@ -232,12 +245,25 @@ impl RequestedLook {
     /// # Errors
     /// Fails as [`Self::new`] does.
     pub fn of_saved(saved: &SavedOutput) -> Result<Self, KeyFault> {
-        let size = parse_size(saved.size.as_deref().unwrap_or(PICTURE_SIZE));
-        let size = size.map_err(|rule| KeyFault::value("size", rule))?;
+        let size = PictureSize::parse(saved.size.as_deref().unwrap_or(PICTURE_SIZE), saved.dpi);
+        let size = size.map_err(|error| {
+            let key = if matches!(error, SizeError::DotsPerInch(_)) { "dpi" } else { "size" };
+            KeyFault::value(key, error.to_string())
+        })?;
         let colormap = saved.colormap.as_deref().unwrap_or(PICTURE_COLORMAP).parse();
-        let colormap = colormap
-            .map_err(|error: <Colormap as FromStr>::Err| KeyFault::value("colormap", error.to_string()))?;
-        let look = Self::of(size, saved.edges.unwrap_or(true), colormap, saved.light.unwrap_or(false));
+        let colormap =
+            colormap.map_err(|error: UnknownColormap| KeyFault::value("colormap", error.to_string()))?;
+        let ground = saved.ground.as_deref().map(str::parse).transpose();
+        let ground = ground.map_err(|error: UnknownGround| KeyFault::value("ground", error.to_string()))?;
+        if ground.is_some() && saved.light.is_some() {
+            return Err(KeyFault::key("light", "the ground says this already; leave it out."));
+        }
+        let furniture = saved.furniture.as_deref().map(str::parse).transpose();
+        let furniture =
+            furniture.map_err(|error: UnknownFurniture| KeyFault::value("furniture", error.to_string()))?;
+        let ground = ground.unwrap_or_else(|| theme(saved.light.unwrap_or(false)));
+        let edges = saved.edges.unwrap_or(true);
+        let look = Self { size, edges, colormap, ground, furniture, space: None };
         Ok(look.in_space(RequestedSpace::of_saved(saved)?))
     }
 
@@ -249,11 +275,6 @@ impl RequestedLook {
     /// Returns whether it is a view in space.
     pub fn is_in_space(&self) -> bool {
         self.space.is_some()
-    }
-
-    fn of((width, height): (u32, Option<u32>), edges: bool, colormap: Colormap, is_light: bool) -> Self {
-        let ground = if is_light { Ground::Light } else { Ground::Dark };
-        Self { width, height, edges, colormap, ground, space: None }
     }
 
     /// Returns the look of a mesh as files get it.
@@ -268,30 +289,66 @@ impl RequestedLook {
     /// Returns the look of the plan, with the colours spread over the levels of a mesh, and an arrow to the
     /// north in the plane of a projection.
     pub fn for_mesh(&self, finished: &FinishedMesh) -> Look {
-        let Self { width, height, edges, colormap, ground, space: _ } = *self;
+        let Self { size, edges, colormap, ground, furniture, space: _ } = *self;
         let mesh = finished.mesh();
         let deepest = mesh.level_counts().len() as u8 - 1;
-        let north = Look::north_of(finished.domain().projection.as_ref(), mesh.lattice());
+        let projection = finished.domain().projection;
         Look {
-            width,
-            height,
+            size,
             edges,
             ground,
-            level_colors: LevelColors::new(colormap, ground, deepest),
-            north,
+            level_colors: LevelColors::new(colormap, ground.theme(), deepest),
+            north: Look::north_of(projection.as_ref(), mesh.lattice()),
+            furniture,
+            place: MapPlace { projection, unit: finished.unit(), degrees: Some(DegreeStyle::default()) },
             space: None,
         }
     }
 }
 
-fn parse_size(text: &str) -> Result<(u32, Option<u32>), String> {
-    let side = |text: &str| text.trim().parse().ok().filter(|side| (1..=LARGEST_PICTURE).contains(side));
-    let parsed = match text.split_once(['x', 'X', '×']) {
-        Some((width, height)) => side(width).zip(side(height)).map(|(w, h)| (w, Some(h))),
-        None => side(text).map(|width| (width, None)),
-    };
-    parsed.ok_or_else(|| {
-        let rule = "write a width, or width x height, as in 1600 or 1600x900";
-        format!("{rule}; each from 1 to {} pixels.", Grouped(LARGEST_PICTURE as usize))
-    })
+/// Returns the ground of a theme.
+fn theme(is_light: bool) -> PictureGround {
+    if is_light { PictureGround::Light } else { PictureGround::Dark }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::OsString;
+
+    use super::super::args::{Arguments, Command};
+    use super::*;
+
+    fn look(options: &str) -> Result<RequestedLook, String> {
+        let words = format!("meshbrush mesh {options}");
+        let words: Vec<OsString> = words.split(' ').map(OsString::from).collect();
+        let read = Arguments::read(&words).map_err(|error| error.to_string())?;
+        let Some(Command::Mesh(typed)) = read.command else { panic!("{options}") };
+        RequestedLook::new(&typed.picture).map_err(|failure| failure.to_string())
+    }
+
+    #[test]
+    fn options_of_pictures_say_the_look() {
+        let usual = look("-o m.png").unwrap();
+        assert_eq!((usual.size, usual.furniture), (PictureSize::of_width(1600), None));
+        assert_eq!(usual.ground, PictureGround::Dark);
+        let given = look("--size 6in --dpi 100 --ground transparent --furniture legend,north").unwrap();
+        assert_eq!((given.size.width, given.ground), (600, PictureGround::Transparent));
+        assert_eq!(given.furniture, Some(Furniture { legend: true, north: true, ..Furniture::NONE }));
+        assert_eq!(look("--light").unwrap().ground, PictureGround::Light);
+    }
+
+    #[test]
+    fn options_of_pictures_are_refused_with_their_names() {
+        for (options, sentence) in [
+            ("--size 0", "--size 0: write a width"),
+            ("--size 9999in", "--size 9999in: 9999 in are"),
+            ("--dpi 5", "--dpi: 5 dots per inch are not possible"),
+            ("--ground green", "--ground: “green” is no ground"),
+            ("--furniture grid", "--furniture: “grid” is none of"),
+            ("--light --ground white", "cannot be used with"),
+        ] {
+            let refused = look(options).unwrap_err();
+            assert!(refused.contains(sentence), "{options}: {refused}");
+        }
+    }
 }

@@ -19,7 +19,9 @@ use meshbrush_io::io::{
 };
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
-use meshbrush_render::render::export::{ExportFormat, Look, NO_SVG_IN_SPACE};
+use meshbrush_render::render::Image;
+use meshbrush_render::render::export::{ExportFormat, NO_SVG_IN_SPACE};
+use meshbrush_render::render::look::Look;
 
 /// Most files that one command writes.
 const MOST_FILES: usize = 1000;
@@ -127,8 +129,11 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         flat,
         size,
         edges,
+        dpi,
         colormap,
         light,
+        ground,
+        furniture,
         view,
         azimuth,
         altitude,
@@ -150,7 +155,10 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         ("size", size.is_some()),
         ("edges", edges.is_some()),
         ("colormap", colormap.is_some()),
+        ("dpi", dpi.is_some()),
         ("light", light.is_some()),
+        ("ground", ground.is_some()),
+        ("furniture", furniture.is_some()),
         ("view", view.is_some()),
         ("azimuth", azimuth.is_some()),
         ("altitude", altitude.is_some()),
@@ -246,6 +254,15 @@ impl RequestedFiles {
             return self.look.for_extract(finished, extract);
         }
         Ok(self.look.for_mesh(finished))
+    }
+
+    /// Returns the picture of a mesh as files get it.
+    ///
+    /// # Errors
+    /// Fails as [`Self::look_for`] does, and when the picture is too small for what stands around its map.
+    pub fn picture_of(&self, finished: &FinishedMesh, extract: &Extract) -> Result<Image, Failure> {
+        let look = self.look_for(finished, extract)?;
+        look.draw(finished.mesh(), extract).map_err(|error| Failure::Work(format!("Not drawn: {error}.")))
     }
 
     /// Returns the one file that the keys of a recipe's output request, in the format of this name where one

@@ -10,7 +10,7 @@ use meshbrush_io::io::KeyFault;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::Number;
-use meshbrush_render::render::export::SpaceLook;
+use meshbrush_render::render::space_look::SpaceLook;
 use meshbrush_render::scene::{Light, NodeHeights, SpaceCamera, ViewDirection};
 
 /// The view in space that is asked for.

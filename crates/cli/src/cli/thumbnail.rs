@@ -39,8 +39,7 @@ pub fn write(typed: &ThumbnailArguments, terminal: &mut Terminal) -> Result<(), 
     let files = RequestedFiles::of_options(&mesh)?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
-    let look = files.look_for(&finished, &extract)?;
-    let picture = look.draw(finished.mesh(), &extract);
+    let picture = files.picture_of(&finished, &extract)?;
     let mut bytes = Vec::new();
     let written = png::write(&mut bytes, picture.size, &picture.rgba).and_then(|()| {
         end.is_near();

@@ -30,6 +30,17 @@ pub struct GraticuleLine {
     pub points: Vec<DVec2>,
 }
 
+impl GraticuleLine {
+    /// Returns where the line crosses a line of the plane: x (0) or y (1) by the number of the axis, at a value.
+    pub fn crossings(&self, axis: usize, value: f64) -> impl Iterator<Item = DVec2> + '_ {
+        self.points.windows(2).filter_map(move |pair| {
+            let [from, to] = [pair[0][axis] - value, pair[1][axis] - value];
+            let is_crossed = from * to <= 0.0 && from != to;
+            is_crossed.then(|| pair[0] + (pair[1] - pair[0]) * (from / (from - to)))
+        })
+    }
+}
+
 /// Returns the meridians and parallels across an area of a plane whose numbers are round in a style: from 4
 /// to 11 of each; none where the area is too small to distinguish even these.
 pub fn graticule(plane: EarthPlane, area: Rect, style: DegreeStyle) -> Vec<GraticuleLine> {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use png::{
     BitDepth, ColorType, Compression, Decoder, DecodingError, Encoder, EncodingError, Filter, OutputInfo,
-    Reader, Transformations,
+    PixelDimensions, Reader, Transformations, Unit,
 };
 
 use super::disk::File;
@@ -215,7 +215,11 @@ pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()
     encode(Encoder::new(out, size[0], size[1]), ColorType::Rgba, rgba)
 }
 
-/// Writes a picture as [`write()`] does, with texts that describe its origin.
+/// Metres of an inch.
+const INCH: f64 = 0.0254;
+
+/// Writes a picture as [`write()`] does, with texts that describe its origin. `dots_per_inch` says how large
+/// its pixels are on paper, if that is known.
 ///
 /// # Errors
 /// Fails as [`write()`] does.
@@ -223,9 +227,13 @@ pub fn write_described(
     out: &mut impl Write,
     size: [u32; 2],
     rgba: &[u8],
+    dots_per_inch: Option<f64>,
     provenance: &Provenance,
 ) -> io::Result<()> {
     let mut encoder = Encoder::new(out, size[0], size[1]);
+    let per_metre = dots_per_inch.map(|dots| (dots / INCH).round() as u32);
+    let density = |per_metre| PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter };
+    encoder.set_pixel_dims(per_metre.map(density));
     for (key, text) in provenance.entries() {
         let keyword = match key {
             "program" => "Software",

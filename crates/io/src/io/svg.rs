@@ -14,15 +14,48 @@ use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Extract, NodeId, bisection_edge_length};
 use meshbrush_mesh::text::xml_text;
 
+/// Where the mesh is on a page with other shapes, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SvgMap {
+    /// The upper left corner of the domain.
+    pub at: DVec2,
+    /// Pixels of a world unit.
+    pub px_per_world: f64,
+}
+
+/// A shape beside the mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SvgShape {
+    /// Its path, as in the attribute `d`, in pixels.
+    pub path: String,
+    /// How it is drawn.
+    pub paint: ShapePaint,
+    /// What it says, if it is a text.
+    pub title: Option<String>,
+}
+
+/// How a shape is drawn. Colours are red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShapePaint {
+    /// Filled.
+    Fill([u8; 3]),
+    /// As a line of a width in pixels.
+    Stroke([u8; 3], f64),
+}
+
 /// Size and colours of the drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct SvgStyle<'a> {
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// A length that a pixel has on paper and its unit, as in `(0.1, "mm")`, if that is known.
+    pub unit: Option<(f64, &'static str)>,
+    /// Where the mesh is on the page; without it, the mesh fills the page.
+    pub map: Option<SvgMap>,
     /// Red, green, blue and opacity by level.
     pub level_colors: &'a [[u8; 4]; 64],
-    /// Red, green and blue behind the mesh.
-    pub background: [u8; 3],
+    /// Red, green and blue behind the mesh; nothing without it.
+    pub background: Option<[u8; 3]>,
     /// Whether edges are drawn, in black with an opacity of one half.
     pub edges: bool,
     /// A line over the mesh, in world units; none without points.
@@ -33,6 +66,8 @@ pub struct SvgStyle<'a> {
     pub marks: &'a [Vec<DVec2>],
     /// Red, green and blue of these lines, and of the wider lines below them.
     pub mark_colors: [[u8; 3]; 2],
+    /// Shapes over everything, in pixels, where [`Self::map`] says where the mesh is.
+    pub shapes: &'a [SvgShape],
 }
 
 /// Writes the drawing. The colours come from the caller: `io` does not depend on the colour tables.
@@ -45,32 +80,68 @@ pub fn write(
     style: &SvgStyle,
     provenance: &Provenance,
 ) -> io::Result<()> {
-    let page = Page::of(mesh);
-    let [width, height] = style.size;
+    let page = Page::of(mesh, style);
+    let view = match style.map {
+        Some(_) => style.size,
+        None => [page.width, page.height],
+    };
+    let [width, height] = style.size.map(|side| style.side(side));
     writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\">",
-        page.width, page.height
+        view[0], view[1]
     )?;
     let triangles = mesh.triangles().len();
     writeln!(out, "<title>{triangles} triangles, {} nodes</title>", mesh.nodes().len())?;
     write!(out, "<desc>")?;
     provenance.lines().try_for_each(|line| writeln!(out, "{}", xml_text(&line)))?;
     writeln!(out, "</desc>")?;
-    let [r, g, b] = style.background;
-    writeln!(
-        out,
-        "<rect width=\"{}\" height=\"{}\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
-        page.width, page.height
-    )?;
+    if let Some([r, g, b]) = style.background {
+        writeln!(
+            out,
+            "<rect width=\"{}\" height=\"{}\" fill=\"#{r:02x}{g:02x}{b:02x}\"/>",
+            view[0], view[1]
+        )?;
+    }
+    if let Some(SvgMap { at, .. }) = style.map {
+        let scale = 1.0 / page.units_per_px;
+        writeln!(out, "<g id=\"map\" transform=\"translate({} {}) scale({scale})\">", at.x, at.y)?;
+    }
     write_levels(out, mesh, &page, style)?;
     if style.edges {
-        write_edges(out, mesh, &page, style)?;
+        write_edges(out, mesh, &page)?;
     }
     write_path(out, mesh, &page, style)?;
+    if style.map.is_some() {
+        writeln!(out, "</g>")?;
+        style.shapes.iter().try_for_each(|shape| write_shape(out, shape))?;
+    }
     write_marks(out, &page, style)?;
     writeln!(out, "</svg>")
+}
+
+impl SvgStyle<'_> {
+    /// Returns a side in pixels as an attribute.
+    fn side(&self, pixels: u32) -> String {
+        let Some((length, unit)) = self.unit else { return pixels.to_string() };
+        let length = (1000.0 * length * f64::from(pixels)).round() / 1000.0;
+        format!("{length}{unit}")
+    }
+}
+
+fn write_shape(out: &mut impl Write, SvgShape { path, paint, title }: &SvgShape) -> io::Result<()> {
+    if let Some(title) = title {
+        write!(out, "<g><title>{}</title>", xml_text(title))?;
+    }
+    match paint {
+        ShapePaint::Fill([r, g, b]) => write!(out, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"{path}\"/>")?,
+        ShapePaint::Stroke([r, g, b], width) => write!(
+            out,
+            "<path fill=\"none\" stroke=\"#{r:02x}{g:02x}{b:02x}\" stroke-width=\"{width:.2}\" d=\"{path}\"/>"
+        )?,
+    }
+    writeln!(out, "{}", if title.is_some() { "</g>" } else { "" })
 }
 
 /// Widths of the line and of the one below it, in pixels.
@@ -80,7 +151,6 @@ fn write_path(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyl
     if style.path.is_empty() {
         return Ok(());
     }
-    let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
     let unit = f64::from(1u32 << page.shift);
     let place = |&point: &DVec2| {
         let at = mesh.lattice().lattice_from_world(point) / unit;
@@ -88,7 +158,7 @@ fn write_path(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyl
     };
     let points: Vec<DVec2> = style.path.iter().map(place).collect();
     for n in [1, 0] {
-        write_line(out, &points, style.path_colors[n], PATH_WIDTHS[n] * units_per_px)?;
+        write_line(out, &points, style.path_colors[n], PATH_WIDTHS[n] * page.units_per_px)?;
     }
     Ok(())
 }
@@ -144,14 +214,14 @@ fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgSt
 
 /// Writes each edge once, at the level of the finer one of its triangles. Widths are chosen in pixels and
 /// written in units of the path, as programs disagree on the width of lines in a scaled path.
-fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page) -> io::Result<()> {
     writeln!(
         out,
         "<g id=\"edges\" fill=\"none\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-linecap=\"round\" \
          stroke-linejoin=\"round\">"
     )?;
     let spacing = mesh.lattice().spacing();
-    let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
+    let units_per_px = page.units_per_px;
     let units_per_world = f64::from(page.width) / mesh.lattice().bounds().size().x;
     for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
         let edges = edges(mesh).filter(|edge| edge.0 as usize == level).map(|(_, ends)| ends);
@@ -185,14 +255,20 @@ struct Page {
     width: u32,
     height: u32,
     shift: u32,
+    units_per_px: f64,
 }
 
 impl Page {
-    fn of(mesh: &Extract) -> Self {
+    fn of(mesh: &Extract, style: &SvgStyle) -> Self {
         let bits = mesh.nodes().iter().fold(0, |bits, node| bits | node.x | node.y);
         let LatticePoint { x, y } = mesh.lattice().extent();
         let shift = (bits | x | y).trailing_zeros();
-        Self { width: x >> shift, height: y >> shift, shift }
+        let (width, height) = (x >> shift, y >> shift);
+        let px = match style.map {
+            Some(map) => map.px_per_world * mesh.lattice().bounds().size().x,
+            None => f64::from(style.size[0]),
+        };
+        Self { width, height, shift, units_per_px: f64::from(width) / px }
     }
 
     /// Returns the largest power of two, in units of the page, that all these nodes are multiples of.

@@ -26,6 +26,7 @@ pub mod home;
 pub mod jobs;
 pub mod layer_edits;
 pub mod notices;
+pub mod picture_choices;
 pub mod platform;
 pub mod presentation;
 pub mod project;

@@ -38,6 +38,14 @@ pub fn digits(value: f64, digits: usize) -> String {
     format!("{}{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// Returns the number of decimals that tells apart values `step` from each other, at most 15.
+pub fn decimals_for(step: f64) -> usize {
+    if !(step.is_finite() && step > 0.0) {
+        return 0;
+    }
+    (-libm::log10(step) - 1e-9).ceil().clamp(0.0, 15.0) as usize
+}
+
 /// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
 pub fn rounded(value: f64, digits: usize) -> f64 {
     let text = format!("{:.*e}", digits.max(1) - 1, value);

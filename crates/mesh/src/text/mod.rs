@@ -15,11 +15,11 @@ mod xml;
 
 pub use area::area;
 pub use bytes::Bytes;
-pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
+pub use digits::{decimals_for, digits, fixed, percent_above, rounded, significant, with_unit};
 pub use excerpt::{abridged, excerpt, printable, short_name};
 pub use grouped::{Grouped, group_digits};
 pub use length::Length;
 pub use number::Number;
-pub use round::round_below;
+pub use round::{round_below, tick_step};
 pub use unit::LengthUnit;
 pub use xml::xml_text;

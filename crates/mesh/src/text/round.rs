@@ -7,9 +7,39 @@ pub fn round_below(limit: f64) -> f64 {
     factor.unwrap_or(1.0) * decade
 }
 
+/// Returns the step of ticks on an axis: the smallest of 1, 2 and 5 times a power of ten that is at least
+/// `limit`, which is positive, and into how many parts smaller ticks divide it.
+pub fn tick_step(limit: f64) -> (f64, u32) {
+    let below = round_below(limit);
+    let leading = below / libm::exp10(libm::floor(libm::log10(below) + 1e-9));
+    let step = match leading.round() as u32 {
+        _ if below >= limit * (1.0 - 1e-12) => below,
+        2 => 2.5 * below,
+        _ => 2.0 * below,
+    };
+    let leading = step / libm::exp10(libm::floor(libm::log10(step) + 1e-9));
+    (step, if leading.round() as u32 == 2 { 4 } else { 5 })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ticks_are_no_closer_than_asked() {
+        for (limit, step, parts) in [
+            (1.0, 1.0, 5),
+            (1.1, 2.0, 4),
+            (2.1, 5.0, 5),
+            (5.5, 10.0, 5),
+            (0.03, 0.05, 5),
+            (1000.0, 1000.0, 5),
+        ] {
+            let (found, divided) = tick_step(limit);
+            assert!((found / step - 1.0).abs() < 1e-9, "{limit}: {found}");
+            assert_eq!(divided, parts, "{limit}");
+        }
+    }
 
     #[test]
     fn round_numbers_are_one_two_or_five() {

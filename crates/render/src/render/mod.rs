@@ -9,11 +9,18 @@
 mod draw_flags;
 mod drawn;
 pub mod export;
+pub mod furniture;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod look;
 pub mod north_arrow;
 pub mod path_export;
+pub mod picture_size;
 pub mod software;
+pub mod space_look;
+#[cfg(test)]
+mod picture_tests;
+mod vector_picture;
 
 pub use drawn::picture_of;
 
@@ -26,7 +33,7 @@ const HUGE_PX: f32 = 4096.0;
 /// 1/256 px; the overlap closes the gap.
 const SEAM_SLACK_PX: f32 = 1.0 / 64.0;
 
-/// An opaque picture.
+/// A picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// Width and height in pixels.

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
-use super::export::{ExportFormat, Look};
+use super::export::ExportFormat;
+use super::look::Look;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{Coordinates, EarthPlane, Speed, metres_along};
 use meshbrush_core::path::{CostDensity, PathError, PathSample, Solution};

@@ -10,7 +10,7 @@ fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
 pub struct Style {
     /// Fill by level.
     pub level_colors: LevelColors,
-    /// The colour of the canvas, seen where there is no mesh.
+    /// The colour of the canvas, seen where there is no mesh, premultiplied by its opacity.
     pub ground: [u8; 4],
     /// Opacity of the fill, 0 to 1; edges are always opaque. If it is less than 1, the ground is transparent,
     /// and colours are premultiplied by their opacity: another picture can be drawn below.
@@ -119,7 +119,8 @@ impl Style {
     /// where something may be drawn below the mesh.
     pub fn clear_color(&self) -> [f32; 4] {
         let [r, g, b] = self.ground_color();
-        if self.is_opaque() { [r, g, b, 1.0] } else { [0.0; 4] }
+        let opacity = f32::from(self.ground[3]) / 255.0;
+        if self.is_opaque() { [r, g, b, opacity] } else { [0.0; 4] }
     }
 
     /// Returns whether the picture hides everything below it.

@@ -756,7 +756,7 @@ fn files_say_where_they_come_from() {
     assert_eq!(instruction, lines.join("\n").replace("?>", "? >"));
 
     let colors = LevelColors::new(Colormap::Viridis, Ground::Dark, 12);
-    let (size, background, edges) = ([80, 60], [1, 2, 3], true);
+    let (size, background, edges) = ([80, 60], Some([1, 2, 3]), true);
     let style = svg::SvgStyle {
         size,
         level_colors: colors.as_table(),
@@ -766,13 +766,16 @@ fn files_say_where_they_come_from() {
         path_colors: [[0; 3]; 2],
         marks: &[],
         mark_colors: [[0; 3]; 2],
+        unit: None,
+        map: None,
+        shapes: &[],
     };
     let svg = text(sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)));
     let description = svg.split("<desc>").nth(1).unwrap().split("</desc>").next().unwrap();
     let escaped = lines.join("\n").replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     assert_eq!(description.trim_end(), escaped);
     let mut picture = Vec::new();
-    png::write_described(&mut picture, [1, 1], &[9; 4], &sample.provenance).unwrap();
+    png::write_described(&mut picture, [1, 1], &[9; 4], None, &sample.provenance).unwrap();
     let picture = String::from_utf8_lossy(&picture);
     assert!(picture.contains(&format!("tEXtFingerprint\0{fingerprint}")), "{picture}");
     assert!(picture.contains(&command), "{picture}");
@@ -983,12 +986,15 @@ fn svg_shows_every_triangle_and_every_edge_once() {
         let style = svg::SvgStyle {
             size: [800, 600],
             level_colors: colors.as_table(),
-            background: [1, 2, 3],
+            background: Some([1, 2, 3]),
             edges: true,
             path: &[],
             path_colors: [[0; 3]; 2],
             marks: &[],
             mark_colors: [[0; 3]; 2],
+            unit: None,
+            map: None,
+            shapes: &[],
         };
         let file = String::from_utf8(
             sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)),

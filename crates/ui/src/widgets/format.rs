@@ -5,7 +5,7 @@
 //! nothing jumps.
 
 use meshbrush_mesh::text::{LengthUnit, group_digits};
-pub use meshbrush_mesh::text::{digits, fixed, percent_above, rounded, significant, with_unit};
+pub use meshbrush_mesh::text::{decimals_for, digits, fixed, percent_above, rounded, significant, with_unit};
 
 /// Returns a count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
@@ -106,14 +106,6 @@ pub fn coordinate(value: f64, step: f64, unit: LengthUnit) -> String {
 /// Returns the text of a number without the zeros after its last decimal.
 pub fn without_zeros(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
-}
-
-/// Returns the number of decimals that tells apart values `step` from each other, at most 15.
-pub fn decimals_for(step: f64) -> usize {
-    if !(step.is_finite() && step > 0.0) {
-        return 0;
-    }
-    (-step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize
 }
 
 /// Returns a time in seconds, in a suitable unit: `0.4 ms`, `37 ms`, `1.24 s`, `2 min 05 s`.

@@ -15,6 +15,7 @@ mod reveal;
 pub mod degrees;
 pub mod shown_keys;
 mod domain_tips;
+mod picture_tips;
 mod space_tips;
 mod layer_tips;
 pub mod tips;

@@ -1,7 +1,7 @@
 //! Tooltips: one sentence for each control, beside the panel that it is in.
 
 use super::shown_keys::with_keys;
-use super::{domain_tips, layer_tips, space_tips};
+use super::{domain_tips, layer_tips, picture_tips, space_tips};
 use egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
 
 /// Points at an edge of the window within which a panel counts as being at that edge.
@@ -394,6 +394,7 @@ pub fn sentence(name: &str) -> &'static str {
         .iter()
         .chain(domain_tips::SENTENCES)
         .chain(layer_tips::SENTENCES)
+        .chain(picture_tips::SENTENCES)
         .chain(space_tips::SENTENCES);
     all.into_iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
 }
@@ -461,6 +462,7 @@ mod tests {
             .iter()
             .chain(domain_tips::SENTENCES)
             .chain(layer_tips::SENTENCES)
+            .chain(picture_tips::SENTENCES)
             .chain(space_tips::SENTENCES)
             .collect();
         for (number, (name, text)) in all.iter().enumerate() {

@@ -10,13 +10,16 @@ use eframe::egui::{
 
 use super::{Contents, FileDialog};
 
+use crate::app::dialogs::pictures;
 use crate::app::file_kinds::EXPORT_MESH;
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
 use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_kit::kit::background::{ProgressRow, WorkId};
+use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::picture_choices::PictureChoices;
 use meshbrush_mesh::text::LengthUnit;
-use meshbrush_render::render::export::{ExportFormat, Look};
+use meshbrush_render::render::export::ExportFormat;
 use meshbrush_ui::theme::{font, metrics, tokens};
 use meshbrush_ui::widgets::{
     ActionButton, ButtonKind, FileRow, Icon, TextError, TextRow, ToolButton, bytes_row, dialog, dialog_title,
@@ -24,8 +27,9 @@ use meshbrush_ui::widgets::{
 };
 
 const WIDTH: f32 = 600.0;
-/// Height of the list.
+/// Height of the list, and above the choices for a picture.
 const LIST: f32 = 264.0;
+const SHORT_LIST: f32 = 120.0;
 
 /// The facts about the document, and about files that are being read, that the dialog shows.
 pub struct FileFacts<'a> {
@@ -33,6 +37,8 @@ pub struct FileFacts<'a> {
     pub triangles: usize,
     /// The settings of the document.
     pub settings: &'a Settings,
+    /// How exported pictures look.
+    pub picture: PictureChoices,
     /// Files that are being read.
     pub reads: &'a [ProgressRow],
 }
@@ -72,14 +78,14 @@ impl ListKeys {
 
 impl FileDialog {
     /// Shows the dialog. Call it every frame until it is closed.
-    pub fn show(&mut self, ctx: &Context, facts: &FileFacts<'_>) -> FileAnswer {
+    pub fn show(&mut self, ctx: &Context, facts: &FileFacts<'_>, commands: &mut Vec<Command>) -> FileAnswer {
         let folder = self.typed().0;
         self.listing.show(&folder);
-        let shown = dialog(ctx, "file", |ui| self.contents(ui, facts));
+        let shown = dialog(ctx, "file", |ui| self.contents(ui, facts, commands));
         if shown.should_close() && shown.inner == FileAnswer::Open { FileAnswer::Closed } else { shown.inner }
     }
 
-    fn contents(&mut self, ui: &mut Ui, facts: &FileFacts<'_>) -> FileAnswer {
+    fn contents(&mut self, ui: &mut Ui, facts: &FileFacts<'_>, commands: &mut Vec<Command>) -> FileAnswer {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
         dialog_title(ui, self.request.title);
         ui.add_space(8.0);
@@ -93,6 +99,9 @@ impl FileDialog {
             let entered = self.text_row(ui, &rows);
             if self.request == &EXPORT_MESH {
                 self.format_rows(ui, facts);
+            }
+            if self.writes_picture() {
+                pictures::rows(ui, facts.picture, commands);
             }
             clicked.or(entered)
         });
@@ -127,7 +136,8 @@ impl FileDialog {
 
     /// Shows the entries of the folder; answers the file that was double-clicked.
     fn list(&mut self, ui: &mut Ui, rows: &[FolderEntry]) -> Option<PathBuf> {
-        let (_, place) = ui.allocate_space(vec2(ui.available_width(), LIST));
+        let height = if self.writes_picture() { SHORT_LIST } else { LIST };
+        let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
         ui.painter().rect_filled(place, metrics::RADIUS_CONTROL, tokens(ui).well);
         let inner = place.shrink(4.0);
         let mut child = ui.new_child(UiBuilder::new().max_rect(inner));
@@ -253,6 +263,11 @@ impl FileDialog {
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     }
 
+    /// Returns whether the file is a picture of the mesh.
+    fn writes_picture(&self) -> bool {
+        self.request == &EXPORT_MESH && matches!(self.format, ExportFormat::Png | ExportFormat::Svg)
+    }
+
     /// The format of an export, and what will be written.
     fn format_rows(&mut self, ui: &mut Ui, facts: &FileFacts<'_>) {
         let names: Vec<(ExportFormat, String)> = ExportFormat::all()
@@ -263,7 +278,7 @@ impl FileDialog {
         if dropdown_row(ui, "Format", &mut self.format, &choices).changed() {
             self.follow_format();
         }
-        let written = written(self.format, facts.triangles, &self.path());
+        let written = written(self.format, facts, &self.path());
         let written = format!("{written}{}", coordinates_in(self.format, facts.settings));
         ui.horizontal(|ui| {
             ui.add_space(metrics::LABEL_WIDTH);
@@ -293,7 +308,8 @@ impl FileDialog {
 }
 
 /// Describes the contents of an export: `188,102 triangles, about 14 MB`.
-fn written(format: ExportFormat, triangles: usize, path: &Path) -> String {
+fn written(format: ExportFormat, facts: &FileFacts<'_>, path: &Path) -> String {
+    let triangles = facts.triangles;
     let count = format::count(triangles as u64);
     let files = match format.files(path).len() {
         1 => String::new(),
@@ -303,7 +319,10 @@ fn written(format: ExportFormat, triangles: usize, path: &Path) -> String {
     let about = |bytes: u64| format::rounded(bytes as f64, 2) as u64;
     match format.approximate_bytes(triangles).map(about) {
         Some(bytes) => format!("{count} triangles, about {}{files}.", format::file_size(bytes)),
-        None => format!("{count} triangles as a picture, {} pixels wide.", format::count(Look::WIDTH.into())),
+        None => {
+            let width = format::count(facts.picture.size().width.into());
+            format!("{count} triangles as a picture, {width} pixels wide.")
+        }
     }
 }
 

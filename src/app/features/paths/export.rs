@@ -40,7 +40,7 @@ pub fn export(
     let (mesh, derived) = (session.follower().shared_mesh(), session.derived().map(Derived::shared_extract));
     let speed = Speed::from_knots(tool.speed);
     let tolerance = Some(tool.export_tolerance).filter(|&tolerance| tolerance > 0.0);
-    let (look, file) = (view.picture(&settings), path.to_owned());
+    let (look, file) = (view.picture_of(&settings), path.to_owned());
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<usize> {
             let density =

@@ -10,7 +10,9 @@ pub const PICTURE_COLORMAP: &str = "viridis";
 impl PictureArguments {
     /// Returns whether an option was given that is not the default.
     pub fn differs_from_default(&self) -> bool {
-        self.size != PICTURE_SIZE || self.no_edges || self.colormap != PICTURE_COLORMAP || self.light
+        let Self { size, dpi, no_edges, colormap, light, ground, furniture } = self;
+        let is_usual = size == PICTURE_SIZE && !no_edges && colormap == PICTURE_COLORMAP && !light;
+        !is_usual || dpi.is_some() || ground.is_some() || furniture.is_some()
     }
 }
 
@@ -18,9 +20,14 @@ impl PictureArguments {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Pictures (.svg and .png)")]
 pub struct PictureArguments {
-    /// Width, or width and height, in pixels
+    /// Width, or width and height, in pixels, or as lengths on paper: 1600, 1600x900, 160mm, 16x9cm, 6in
     #[arg(long, value_name = "W[xH]", default_value = PICTURE_SIZE)]
     pub size: String,
+
+    /// Pixels of an inch: how many pixels a length has, and how large pixels are on paper [default: 300 for
+    /// lengths]
+    #[arg(long, value_name = "NUMBER")]
+    pub dpi: Option<f64>,
 
     /// Do not draw the edges
     #[arg(long)]
@@ -33,4 +40,19 @@ pub struct PictureArguments {
     /// Draw on a light background
     #[arg(long)]
     pub light: bool,
+
+    /// What is behind the mesh: dark, light, white or transparent [default: dark]
+    ///
+    /// With white and transparent, lines and texts have the colours of paper.
+    #[arg(long, value_name = "NAME", conflicts_with = "light")]
+    pub ground: Option<String>,
+
+    /// What stands around the map: some of legend, axes, scale and north, separated by commas, or all, or
+    /// none [default: only an arrow to the north over the map, in the plane of a projection]
+    ///
+    /// The legend has the diameter and the number of triangles of each level. Axes are longitudes and latitudes
+    /// where the document lies on the Earth, and x and y elsewhere. The picture has the size that is asked
+    /// for, with all this in it, and nothing of it covers the map.
+    #[arg(long, value_name = "LIST")]
+    pub furniture: Option<String>,
 }

@@ -258,9 +258,12 @@ pub struct SavedOutput {
     /// Whether the third coordinate is 0, and not the height of a surface.
     #[serde(default, skip_serializing_if = "is_no")]
     pub flat: bool,
-    /// Width, or width and height, of a picture in pixels, as in `"1600x900"`.
+    /// Width, or width and height, of a picture in pixels or as lengths, as in `"1600x900"` or `"160mm"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
+    /// Pixels of an inch of a picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dpi: Option<f64>,
     /// Whether a picture shows the edges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub edges: Option<bool>,
@@ -270,6 +273,12 @@ pub struct SavedOutput {
     /// Whether the background of a picture is light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<bool>,
+    /// What is behind the mesh of a picture: `"dark"`, `"light"`, `"white"` or `"transparent"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground: Option<String>,
+    /// What stands around the map of a picture, as in `"legend,axes"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub furniture: Option<String>,
     /// What a picture shows: `"plan"` or `"space"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,

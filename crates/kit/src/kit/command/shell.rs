@@ -22,6 +22,8 @@ pub enum ShellCommand {
     About,
     /// Opens the question for a place to go to.
     AskPlace,
+    /// Asks how exported pictures look.
+    AskPicture,
     /// Opens it with a point typed in.
     AskPlaceNear(DVec2),
     /// Asks what a file of data that was read is to be.

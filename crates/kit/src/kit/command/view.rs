@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::CommandSet;
 use crate::kit::coordinates::CoordinateStyle;
+use crate::kit::picture_choices::PictureChoices;
 use crate::kit::view::{CanvasAid, FieldOverlay};
 use crate::kit::{DockPlace, Tab};
 use meshbrush_mesh::geometry::Rect;
@@ -42,6 +43,8 @@ pub enum ViewCommand {
     Colormap(Colormap),
     /// Chooses the coordinates that places are written in.
     Coordinates(CoordinateStyle),
+    /// Chooses how exported pictures look.
+    Picture(PictureChoices),
     /// Shows one level alone, or all, while the pointer is on the legend.
     ShowLevel(Option<u32>),
     /// Hides or shows a level on the canvas.

@@ -14,13 +14,14 @@ use super::Tab;
 use super::command::{InterfaceScale, ViewCommand};
 use super::coordinates::CoordinateStyle;
 use super::dock::Dock;
+use super::picture_choices::PictureChoices;
 use super::presentation::Presentation;
 use super::readout::Quantity;
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
-use meshbrush_render::render::export::Look;
+use meshbrush_render::render::look::{Look, MapPlace};
 use meshbrush_render::scene::{Camera, SpaceCamera, Style};
 use meshbrush_ui::widgets::{format, reveal};
 
@@ -52,6 +53,8 @@ pub struct View {
     pub aids: CanvasAids,
     /// The coordinates that places are written in.
     pub coordinates: CoordinateStyle,
+    /// How exported pictures look.
+    pub picture: PictureChoices,
     /// Whether the panels are shown.
     pub panels: bool,
     /// Whether menus, status and panels surround the canvas: not in a page that embeds it.
@@ -90,6 +93,7 @@ impl Default for View {
             overlay: FieldOverlay::None,
             aids: CanvasAids::default(),
             coordinates: CoordinateStyle::default(),
+            picture: PictureChoices::default(),
             panels: true,
             surrounds: true,
             strip: true,
@@ -133,17 +137,21 @@ impl View {
     }
 
     /// How a picture of the whole mesh looks in a file.
-    pub fn picture(&self, settings: &Settings) -> Look {
+    pub fn picture_of(&self, settings: &Settings) -> Look {
+        let (projection, lattice) = (settings.domain.projection, settings.lattice().ok());
+        let degrees = match self.coordinates {
+            CoordinateStyle::Geographic(style) => Some(style),
+            CoordinateStyle::Plane => None,
+        };
+        let ground = self.picture.ground_in(self.ground);
         Look {
-            width: Look::WIDTH,
-            height: None,
+            size: self.picture.size(),
             edges: self.edges,
-            ground: self.ground,
-            level_colors: self.level_colors(settings),
-            north: settings
-                .lattice()
-                .ok()
-                .and_then(|lattice| Look::north_of(settings.domain.projection.as_ref(), &lattice)),
+            ground,
+            level_colors: LevelColors::new(self.colormap, ground.theme(), deepest_level(settings)),
+            north: lattice.and_then(|lattice| Look::north_of(projection.as_ref(), &lattice)),
+            furniture: Some(self.picture.furniture),
+            place: MapPlace { projection, unit: settings.unit, degrees },
             space: None,
         }
     }
@@ -157,6 +165,7 @@ impl View {
             edges: self.edges,
             aids: CanvasAids { picture_corners: false, ..self.aids },
             coordinates: self.coordinates,
+            picture: self.picture,
             panels: self.panels,
             surrounds: self.surrounds,
             strip: self.strip,
@@ -191,6 +200,7 @@ impl View {
             ViewCommand::SetOverlay(overlay) => self.overlay = overlay,
             ViewCommand::Colormap(map) => self.colormap = map,
             ViewCommand::Coordinates(style) => self.coordinates = style,
+            ViewCommand::Picture(choices) => self.picture = choices,
             ViewCommand::ShowLevel(level) => self.lone_level = level,
             ViewCommand::ToggleLevel(level) => self.hidden_levels ^= bit_of(level),
             ViewCommand::IsolateLevel(level) if self.hidden_levels == !bit_of(level) => {

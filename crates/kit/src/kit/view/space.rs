@@ -5,7 +5,7 @@ use crate::kit::command::SpaceCommand;
 use crate::kit::heights::Heights;
 use crate::kit::session::Session;
 use meshbrush_mesh::geometry::Lattice;
-use meshbrush_render::render::export::SpaceLook;
+use meshbrush_render::render::space_look::SpaceLook;
 use meshbrush_render::scene::{
     Camera, HeightScale, Light, NodeHeights, SpaceCamera, SpaceView, ViewDirection,
 };

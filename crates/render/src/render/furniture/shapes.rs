@@ -1,0 +1,68 @@
+//! A sheet as shapes of a vector picture: texts are outlines, which need no font.
+
+use std::fmt::Write as _;
+
+use glam::DVec2;
+
+use super::glyphs::{self, OutlinePart};
+use super::sheet::{Sheet, SheetMark};
+use meshbrush_io::io::svg::{ShapePaint, SvgShape};
+
+/// Returns the shapes of a sheet, in pixels.
+pub fn shapes_of(sheet: &Sheet) -> Vec<SvgShape> {
+    sheet.marks.iter().map(shape_of).collect()
+}
+
+fn shape_of(mark: &SheetMark) -> SvgShape {
+    match mark {
+        SheetMark::Fill { corners: [from, to], color } => {
+            let path = format!("M{} {}H{}V{}H{}Z", n(from.x), n(from.y), n(to.x), n(to.y), n(from.x));
+            SvgShape { path, paint: ShapePaint::Fill(*color), title: None }
+        }
+        SheetMark::Line { points, width, color } => {
+            let mut path = String::new();
+            for (index, at) in points.iter().enumerate() {
+                match index {
+                    0 => path.push('M'),
+                    last if last + 1 == points.len() && last > 1 && *at == points[0] => {
+                        path.push('Z');
+                        break;
+                    }
+                    _ => path.push('L'),
+                }
+                push(&mut path, *at);
+            }
+            SvgShape { path, paint: ShapePaint::Stroke(*color, *width), title: None }
+        }
+        SheetMark::Text { at, size, text, color } => {
+            let mut path = String::new();
+            for part in glyphs::outline(text, *at, *size) {
+                match part {
+                    OutlinePart::Move(at) => push_to(&mut path, 'M', at),
+                    OutlinePart::Line(at) => push_to(&mut path, 'L', at),
+                    OutlinePart::Quad(control, at) => {
+                        push_to(&mut path, 'Q', control);
+                        push_to(&mut path, ' ', at);
+                    }
+                    OutlinePart::Close => path.push('Z'),
+                }
+            }
+            SvgShape { path, paint: ShapePaint::Fill(*color), title: Some(text.clone()) }
+        }
+    }
+}
+
+fn push_to(path: &mut String, letter: char, at: DVec2) {
+    path.push(letter);
+    push(path, at);
+}
+
+fn push(path: &mut String, at: DVec2) {
+    let _ = write!(path, "{} {}", n(at.x), n(at.y));
+}
+
+/// Returns a number with at most two decimals.
+fn n(value: f64) -> f64 {
+    // A negative zero would have a sign.
+    (100.0 * value).round() / 100.0 + 0.0
+}

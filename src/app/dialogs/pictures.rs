@@ -1,0 +1,78 @@
+//! How exported pictures look: in a dialog of its own, and in the question for a file.
+
+use eframe::egui::{Align, Context, Layout, Ui};
+
+use meshbrush_kit::kit::FrameState;
+use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::picture_choices::{GroundChoice, PictureChoices, WidthIn};
+use meshbrush_render::render::picture_size::{LARGEST_PICTURE, PictureSize};
+use meshbrush_ui::widgets::{
+    ActionButton, ButtonKind, NumberRow, dialog, dialog_title, segmented, toggle_row,
+};
+
+/// Width of the dialog, in points.
+const WIDTH: f32 = 320.0;
+/// The longest name of a number.
+const LONGEST: &str = "Dots per inch";
+
+/// Shows the dialog.
+pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let shown = dialog(ctx, "pictures", |ui| {
+        ui.set_width(WIDTH);
+        dialog_title(ui, "Exported pictures");
+        ui.add_space(8.0);
+        rows(ui, state.view.picture, commands);
+        ui.add_space(12.0);
+        let button = ActionButton::new("Done").kind(ButtonKind::Main);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.add(button)).inner.clicked()
+    });
+    if shown.inner || shown.should_close() {
+        commands.push(Command::from(ShellCommand::CloseDialog));
+    }
+}
+
+/// Shows size, ground and furniture.
+pub fn rows(ui: &mut Ui, before: PictureChoices, commands: &mut Vec<Command>) {
+    let mut choices = before;
+    segmented(
+        ui,
+        "Width in",
+        &mut choices.width_in,
+        &[(WidthIn::Pixels, "Pixels"), (WidthIn::Paper, "Millimetres")],
+    );
+    size_rows(ui, &mut choices);
+    segmented(
+        ui,
+        "Ground of pictures",
+        &mut choices.ground,
+        &[
+            (GroundChoice::AsShown, "As shown"),
+            (GroundChoice::White, "White"),
+            (GroundChoice::Transparent, "Transparent"),
+        ],
+    );
+    let furniture = &mut choices.furniture;
+    toggle_row(ui, "Legend of levels", &mut furniture.legend);
+    toggle_row(ui, "Axes", &mut furniture.axes);
+    toggle_row(ui, "Scale", &mut furniture.scale);
+    toggle_row(ui, "North arrow", &mut furniture.north);
+    if choices != before {
+        commands.push(Command::from(ViewCommand::Picture(choices)));
+    }
+}
+
+fn size_rows(ui: &mut Ui, choices: &mut PictureChoices) {
+    if choices.width_in == WidthIn::Pixels {
+        let mut width = f64::from(choices.width_px);
+        let row = NumberRow::new("Pixels wide", &mut width).aligned_with(LONGEST).integer();
+        row.range(1.0..=f64::from(LARGEST_PICTURE)).default(f64::from(PictureSize::WIDTH)).show(ui);
+        choices.width_px = width as u32;
+        return;
+    }
+    let (largest, standard) = (choices.largest_mm(), PictureChoices::default());
+    let row = NumberRow::new("Width on paper", &mut choices.width_mm).aligned_with(LONGEST).unit("mm");
+    row.range(1.0..=largest).default(standard.width_mm).show(ui);
+    let row = NumberRow::new(LONGEST, &mut choices.dots_per_inch);
+    let [fewest, most] = PictureSize::DOTS;
+    row.range(fewest..=most).default(standard.dots_per_inch).show(ui);
+}
