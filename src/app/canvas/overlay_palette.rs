@@ -134,8 +134,8 @@ impl OverlayPalette {
         self.depth_error(-MOST_ERROR * share)
     }
 
-    /// Returns the colour of a number of a triangle: neutral where it is good, red where it is bad. An edge by
-    /// h̄ is blue where the triangle is finer than asked, and a time step is one by the least.
+    /// Returns the colour of a number of a triangle: neutral where it is good, red where it is bad. An edge
+    /// by h̄ is blue where the triangle is finer than asked, and a time step is one by the least.
     pub fn quality(&self, measure: QualityMeasure, number: f32) -> Opaque {
         let [good, bad] = match measure {
             QualityMeasure::TargetRatio => return self.depth_error(-MOST_ERROR * number.log2()),

@@ -25,7 +25,8 @@ pub static PLACES: &[DockPlace] = &[
     DockPlace::new("statistics", "Statistics", "Longest edge").words("quality maximum largest widest"),
     DockPlace::new("statistics", "Statistics", "Gradation").words("quality growth size change neighbours"),
     DockPlace::new("quality", "Quality", "").words(
-        "figures angles bad elements histogram worst check skewness aspect ratio narrowest strait widest",
+        "figures angles bad elements histogram worst check skewness aspect ratio slivers narrowest strait widest \
+         cfl courant number time step stability solver valence degree triangles at a node connectivity",
     ),
     DockPlace::new("quality", "Quality", "Smallest angle")
         .words("quality bad elements skewness sliver slivers thin minimum narrowest"),
@@ -35,10 +36,6 @@ pub static PLACES: &[DockPlace] = &[
         .words("quality bad elements aspect ratio skewness sliver slivers stretched longest shortest"),
     DockPlace::new("quality", "Quality", "Longest edge / h̄")
         .words("quality target size ratio too coarse honoured diameter"),
-    DockPlace::new("quality", "Quality", "Time step")
-        .words("cfl courant number stability smallest stable solver seconds depths"),
-    DockPlace::new("quality", "Quality", "Triangles at a node")
-        .words("quality valence degree connectivity neighbours elements"),
     DockPlace::new("plots", "Plots", "").words("chart figure time measure experiment"),
     DockPlace::new("domain", "Domain", "").words("extent outline coast region"),
     DockPlace::new("domain", "Domain", "Unit").words("metres kilometres degrees length"),

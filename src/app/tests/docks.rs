@@ -227,8 +227,9 @@ fn a_section_that_is_opened_comes_into_view() {
     open_section(&mut window, "Statistics");
     super::wait_for_jobs(&mut window);
     let title = section(&window, "Statistics").expect("the section").rect();
-    let top = bar(&window).bottom();
-    assert!((top..top + 40.0).contains(&title.top()), "{title} below {top}");
+    let last = window.get_by_label("Fingerprint").rect();
+    let (top, bottom) = (bar(&window).bottom(), super::canvas(&window).bottom());
+    assert!(top <= title.top() && last.bottom() <= bottom, "{title} to {last}, in {top} to {bottom}");
 }
 
 #[test]

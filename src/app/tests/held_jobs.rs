@@ -87,7 +87,7 @@ fn whatever_the_order_in_which_jobs_are_done_the_next_document_shows_its_own_fig
     for seed in 0..6 {
         let mut random = Rng::with_seed(seed);
         let mut window = window_of(TALL);
-        for section in ["Statistics", "Quality", "Plots"] {
+        for section in ["Statistics", "Plots"] {
             open_section(&mut window, section);
         }
         window.state().jobs.hold();
@@ -131,7 +131,7 @@ fn a_key_that_is_held_starts_no_job_before_the_last_one_has_ended() {
 #[test]
 fn no_thread_outlives_the_window() {
     let mut window = window_of(TALL);
-    for section in ["Statistics", "Quality", "Plots"] {
+    for section in ["Statistics", "Plots"] {
         open_section(&mut window, section);
     }
     let jobs = window.state().jobs.clone();

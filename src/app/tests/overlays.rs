@@ -138,7 +138,7 @@ fn the_legends_of_shapes_have_the_colours_of_the_canvas() {
     });
     let sliver = shapes.min_by(|one, other| one.1.total_cmp(&other.1));
     let (middle, smallest, [shortest, _, longest]) = sliver.expect("the sea has triangles");
-    assert!((15.0..35.0).contains(&smallest), "{smallest}");
+    assert!((10.0..35.0).contains(&smallest), "{smallest}");
     open_section(&mut window, "Quality");
     send(&mut window, Command::from(ViewCommand::GoTo(middle, 0.2 * shortest)));
     for theme in THEMES {

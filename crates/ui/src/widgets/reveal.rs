@@ -18,6 +18,8 @@ struct Revealed {
     pass: u64,
     /// When it was asked for, in seconds.
     time: f64,
+    /// The number of the first pass that has the control: what a panel computes can come later.
+    found: Option<u64>,
 }
 
 fn id() -> Id {
@@ -27,7 +29,7 @@ fn id() -> Id {
 /// Opens the section with this title or name, and scrolls to it, or to the control with this name in it.
 pub fn reveal(ctx: &Context, section: &'static str, control: &'static str) {
     let (pass, time) = (ctx.cumulative_pass_nr(), ctx.input(|input| input.time));
-    ctx.data_mut(|data| data.insert_temp(id(), Revealed { section, control, pass, time }));
+    ctx.data_mut(|data| data.insert_temp(id(), Revealed { section, control, pass, time, found: None }));
     ctx.request_repaint();
 }
 
@@ -45,7 +47,12 @@ pub(super) fn show_control(ui: &Ui, rect: Rect, name: &str) {
     if asked.control != name || ui.input(|input| input.time) - asked.time > FRAMED {
         return;
     }
-    if passes_since(ui, asked) < PASSES {
+    let pass = ui.ctx().cumulative_pass_nr();
+    let found = asked.found.unwrap_or(pass);
+    if asked.found.is_none() {
+        ui.data_mut(|data| data.insert_temp(id(), Revealed { found: Some(pass), ..asked }));
+    }
+    if pass.saturating_sub(found) < PASSES {
         ui.scroll_to_rect(rect, Some(Align::Center));
         ui.ctx().request_repaint();
     }

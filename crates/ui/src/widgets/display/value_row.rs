@@ -4,7 +4,7 @@ use egui::{CursorIcon, Response, Role, Sense, Stroke, Ui, WidgetInfo};
 
 use super::paint;
 use crate::theme::{font, tokens};
-use crate::widgets::tips;
+use crate::widgets::{reveal, tips};
 
 /// A grey name at the left, a bright monospaced value at the right.
 ///
@@ -57,6 +57,7 @@ impl<'a> ValueRow<'a> {
         let Self { label, value, help, stands_out, is_link, copies } = self;
         let t = tokens(ui);
         let row = paint::row(ui);
+        reveal::show_control(ui, row, label);
         let sense = if is_link || copies.is_some() { Sense::click() } else { Sense::hover() };
         let role = if is_link { Role::Button } else { Role::Definition };
         let response = ui.interact(row, ui.make_persistent_id(("value", label)), sense);
