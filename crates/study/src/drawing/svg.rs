@@ -45,8 +45,9 @@ fn write_group(out: &mut impl Write, group: &DrawingGroup) -> io::Result<()> {
 fn write_shape(out: &mut impl Write, shape: &DrawnShape) -> io::Result<()> {
     write!(out, "<path d=\"{}\"", PathData(&shape.parts))?;
     write_color(out, "fill", shape.fill)?;
-    if let Some((color, width)) = shape.line {
-        write_color(out, "stroke", Some(color))?;
+    // Also where there is none: some programs keep the line of the shape before.
+    write_color(out, "stroke", shape.line.map(|(color, _)| color))?;
+    if let Some((_, width)) = shape.line {
         write!(out, " stroke-width=\"{width:.2}\"")?;
     }
     writeln!(out, "/>")
@@ -115,9 +116,13 @@ mod tests {
         );
         assert_eq!(lines[5], "<g role=\"img\" aria-label=\"a &lt; &quot;b&quot;\">");
         assert!(lines[6].contains("fill=\"#000000\" stroke=\"#000000\""), "the halo: {}", lines[6]);
-        assert!(lines[7].contains("fill=\"#ffffff\"") && !lines[7].contains("stroke"), "{}", lines[7]);
+        assert!(
+            lines[7].contains("fill=\"#ffffff\"") && lines[7].contains("stroke=\"none\""),
+            "{}",
+            lines[7]
+        );
         assert_eq!(lines[8], "</g>");
-        assert!(lines[9].contains("Z\" fill=\"#040506\""), "{}", lines[9]);
+        assert!(lines[9].contains("Z\" fill=\"#040506\" stroke=\"none\""), "{}", lines[9]);
         assert_eq!(text.matches("<g").count(), text.matches("</g>").count());
         assert!(!text.contains("paint-order") && !text.contains("<text"));
     }
