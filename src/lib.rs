@@ -104,9 +104,9 @@ pub use meshbrush_study::levels::{Bisections, LevelFigures};
 // Read and write files.
 #[doc(inline)]
 pub use meshbrush_core::earth::{
-    Coordinates, CoordinatesTextError, EdgeLengths, GeographicExtent, GeographicSystem, InverseScale,
-    Projection, ProjectionChoice, ProjectionError, ProjectionKind, ProjectionTextError, Reprojection,
-    projected_polygons,
+    Coordinates, CoordinatesTextError, DegreeStyle, EdgeLengths, GeographicAxis, GeographicExtent,
+    GeographicSystem, InverseScale, Projection, ProjectionChoice, ProjectionError, ProjectionKind,
+    ProjectionTextError, Reprojection, projected_polygons,
 };
 #[doc(inline)]
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};

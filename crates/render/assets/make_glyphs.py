@@ -11,7 +11,7 @@ from fontTools.ttLib import TTFont
 
 HERE = pathlib.Path(__file__).parent
 FONT = HERE.parents[1] / "ui/assets/fonts/Inter-Regular.ttf"
-LETTERS = [chr(code) for code in range(0x20, 0x7F)] + list("°²·×µ–′″−≈")
+LETTERS = sorted(chr(code) for code in [*range(0x20, 0x7F), *map(ord, "°²µ·×–′″−≈")])
 HEAD = """\
 # Outlines of Inter Regular, Copyright 2016 The Inter Project Authors, SIL Open Font License 1.1.
 # Written by make_glyphs.py. A line has a letter as a number, its advance, and its outline: M x y, L x y,

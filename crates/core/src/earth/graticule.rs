@@ -31,7 +31,7 @@ pub struct GraticuleLine {
 }
 
 impl GraticuleLine {
-    /// Returns where the line crosses a line of the plane: x (0) or y (1) by the number of the axis, at a value.
+    /// Returns where the line crosses a line of the plane, on which x (axis 0) or y (axis 1) has a value.
     pub fn crossings(&self, axis: usize, value: f64) -> impl Iterator<Item = DVec2> + '_ {
         self.points.windows(2).filter_map(move |pair| {
             let [from, to] = [pair[0][axis] - value, pair[1][axis] - value];

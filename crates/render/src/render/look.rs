@@ -45,8 +45,8 @@ pub struct MapPlace {
     pub projection: Option<Projection>,
     /// The unit of the plane.
     pub unit: LengthUnit,
-    /// How longitudes and latitudes are written, where the map lies on the Earth; `None` for coordinates of the
-    /// plane.
+    /// How longitudes and latitudes are written, where the map lies on the Earth; `None` for coordinates of
+    /// the plane.
     pub degrees: Option<DegreeStyle>,
 }
 

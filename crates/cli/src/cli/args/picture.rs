@@ -50,9 +50,9 @@ pub struct PictureArguments {
     /// What stands around the map: some of legend, axes, scale and north, separated by commas, or all, or
     /// none [default: only an arrow to the north over the map, in the plane of a projection]
     ///
-    /// The legend has the diameter and the number of triangles of each level. Axes are longitudes and latitudes
-    /// where the document lies on the Earth, and x and y elsewhere. The picture has the size that is asked
-    /// for, with all this in it, and nothing of it covers the map.
+    /// The legend has the diameter and the number of triangles of each level. Axes are longitudes and
+    /// latitudes where the document lies on the Earth, and x and y elsewhere. The picture has the size that
+    /// is asked for, with all this in it, and nothing of it covers the map.
     #[arg(long, value_name = "LIST")]
     pub furniture: Option<String>,
 }

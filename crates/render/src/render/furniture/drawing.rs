@@ -6,7 +6,7 @@ use super::axes::{MapAxes, MapTick};
 use super::blocks::{BAR, BETWEEN, COLUMN_GAPS, GAP, NORTH, NORTH_LENGTH, ROW, SWATCH, TITLE_ROW};
 use super::content::{Inks, Legend, SheetContent};
 use super::glyphs;
-use super::layout::{Arrangement, Side};
+use super::layout::{SheetPlaces, Side};
 use super::scale_bar::ScaleBar;
 use super::sheet::{Sheet, SheetMark};
 use crate::render::north_arrow::north_arrow;
@@ -21,7 +21,7 @@ const BOLD: f64 = 0.12;
 
 /// Makes marks.
 pub(super) struct Drawing<'a> {
-    places: &'a Arrangement,
+    places: &'a SheetPlaces,
     inks: Inks,
     marks: Vec<SheetMark>,
 }
@@ -43,7 +43,7 @@ impl<'a> Drawing<'a> {
     const TO_TITLE: f64 = 0.95;
 
     /// Returns the drawing of what an arrangement has places for.
-    pub(super) fn of(places: &'a Arrangement, content: &SheetContent) -> Self {
+    pub(super) fn of(places: &'a SheetPlaces, content: &SheetContent) -> Self {
         let mut drawing = Self { places, inks: content.inks, marks: Vec::new() };
         if let Some(axes) = &content.axes {
             drawing.frame(axes);
@@ -57,7 +57,7 @@ impl<'a> Drawing<'a> {
     }
 
     pub(super) fn into_sheet(self) -> Sheet {
-        let Arrangement { size, map_at, map_size, .. } = *self.places;
+        let SheetPlaces { size, map_at, map_size, .. } = *self.places;
         Sheet { size, map_at, map_size, marks: self.marks }
     }
 
@@ -71,7 +71,7 @@ impl<'a> Drawing<'a> {
     }
 
     fn map(&self) -> [DVec2; 2] {
-        let Arrangement { map_at, map_size, .. } = *self.places;
+        let SheetPlaces { map_at, map_size, .. } = *self.places;
         let at = DVec2::from(map_at.map(f64::from));
         [at, at + DVec2::from(map_size.map(f64::from))]
     }

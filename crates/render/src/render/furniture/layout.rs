@@ -71,7 +71,7 @@ pub(super) struct Margins {
 
 /// Places for everything.
 #[derive(Clone, Debug)]
-pub(super) struct Arrangement {
+pub(super) struct SheetPlaces {
     pub(super) side: Side,
     pub(super) text_px: f64,
     pub(super) size: [u32; 2],
@@ -102,7 +102,7 @@ impl Sheet {
         loop {
             let found = [Side::Right, Side::Below]
                 .into_iter()
-                .filter_map(|side| Arrangement::new(request, content, side, text_px))
+                .filter_map(|side| SheetPlaces::new(request, content, side, text_px))
                 .reduce(|a, b| if b.share_of_map() > a.share_of_map() { b } else { a });
             let kept = found.as_ref().map_or(0.0, |found| found.map_area() / bare);
             match found {
@@ -154,7 +154,7 @@ fn area([width, height]: [u32; 2]) -> f64 {
     f64::from(width) * f64::from(height)
 }
 
-impl Arrangement {
+impl SheetPlaces {
     /// Returns the arrangement with a map as large as possible; `None` where there is no room for one.
     fn new(request: &SheetRequest<'_>, content: &SheetContent, side: Side, text_px: f64) -> Option<Self> {
         let pad = PAD * text_px;

@@ -42,7 +42,7 @@ mod tests {
     fn a_bar_is_round_and_no_longer_than_asked() {
         for (px_per_length, unit, text, length) in [
             (3.0, LengthUnit::Kilometre, "50 km", 150.0),
-            (0.001, LengthUnit::Metre, "100 km", 100.0),
+            (0.001, LengthUnit::Metre, "200 km", 200.0),
             (0.4, LengthUnit::Metre, "500 m", 200.0),
             (190.0, LengthUnit::None, "1", 190.0),
         ] {
