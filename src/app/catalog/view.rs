@@ -31,7 +31,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Graticule", CanvasAid::Graticule).checked(view.aids.graticule),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
-        aid("Legend of the levels", CanvasAid::Levels).checked(view.aids.levels),
+        aid("Legend of the levels", CanvasAid::Levels).checked(view.aids.levels).palette_only(),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
         aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause).palette_only(),
     ];

@@ -20,7 +20,7 @@ const LEAST_CANVAS: f32 = 400.0;
 const LEAST_UPPER: f32 = 120.0;
 const LEAST_LOWER: f32 = 200.0;
 /// Share of the height that the upper dock has at first.
-const UPPER_SHARE: f32 = 0.5;
+const UPPER_SHARE: f32 = 0.46;
 /// How far from a divider the pointer takes hold of it, in points.
 const REACH: f32 = 4.0;
 

@@ -115,8 +115,8 @@ fn step_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
             stepping::title(ui, commands);
             // Text and code stay in sight, also in a low window.
             stepping::text_and_code(ui, state, commands);
-            report::section(ui, state, commands);
             stepping::details(ui, state, commands);
+            report::section(ui, state, commands);
             ui.add_space(metrics::PANEL_MARGIN);
         });
     });

@@ -49,7 +49,7 @@ fn a_menu_within_a_menu_has_every_kind_of_layer_and_every_overlay() {
     let mut window = window();
     for (menu, within, entries) in [
         ("Layer", "Add layer", ["paint, as risk", "distance to the outline"]),
-        ("View", "Overlay", ["Risk", "Which layer"]),
+        ("View", "Overlay", ["slack", "deciding layer"]),
     ] {
         open_menu(&mut window, menu);
         let buttons = window.get_all_by_role_and_label(Role::Button, within);

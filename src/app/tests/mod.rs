@@ -290,6 +290,17 @@ pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     window.run();
 }
 
+/// Runs a command of a menu within a menu.
+pub fn choose_within(window: &mut Window, menu: &str, submenu: &str, entry: &str) {
+    open_menu(window, menu);
+    let buttons = window.get_all_by_role_and_label(Role::Button, submenu);
+    // The docks at the right can have a button of that name.
+    buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap().click();
+    window.run();
+    window.get_by_role_and_label(Role::Button, entry).click();
+    window.run();
+}
+
 /// Runs a command that is in no menu: the palette has it.
 pub fn choose_in_palette(window: &mut Window, title: &str) {
     key(window, Modifiers::COMMAND, Key::P);

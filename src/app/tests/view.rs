@@ -8,8 +8,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    RESTING_PLACE, TALL, Window, canvas, choose, document, entries, in_world, key, on_screen, open_popup,
-    open_tab, press_at, release_at, send, settings, wheel, window, window_of,
+    RESTING_PLACE, TALL, Window, canvas, choose_within, document, entries, in_world, key, on_screen,
+    open_popup, open_tab, press_at, release_at, send, settings, wheel, window, window_of,
 };
 use meshbrush_kit::kit::Tab;
 use meshbrush_kit::kit::command::{Command, ViewCommand};
@@ -159,7 +159,7 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
 fn the_theme_switches_by_menu_and_by_the_view_options() {
     let mut window = window_of(TALL);
     assert_eq!(window.state().view().ground, Ground::Dark);
-    choose(&mut window, "View", "Light theme");
+    choose_within(&mut window, "View", "Theme", "Light theme");
     assert_eq!(window.state().view().ground, Ground::Light);
     open_popup(&mut window, "View options");
     window.get_by_role_and_label(Role::RadioButton, "Dark").click();

@@ -105,7 +105,8 @@ impl Submenu {
 
     /// Returns the title of an entry within this menu: without the words that the menu says already.
     pub fn title_within(self, title: &str) -> &str {
-        title.strip_prefix(self.title()).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(title)
+        let rest = title.strip_prefix(self.title());
+        rest.and_then(|rest| rest.strip_prefix(": ").or(rest.strip_prefix(' '))).unwrap_or(title)
     }
 }
 

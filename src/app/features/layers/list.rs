@@ -14,7 +14,7 @@ use meshbrush_ui::theme::tokens;
 use meshbrush_ui::widgets::{LayerRow, LayerRowAnswer};
 
 /// Rows that are in sight at least; more scroll. The half row says so.
-const LEAST_ROWS: f32 = 3.5;
+const LEAST_ROWS: f32 = 2.5;
 
 /// A name that is being typed, in egui's memory.
 #[derive(Clone, Debug)]

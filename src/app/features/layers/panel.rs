@@ -12,7 +12,7 @@ use meshbrush_ui::widgets::{Icon, Section, ToolButton};
 pub static LAYERS: Panel = Panel { name: "layers", tab: Tab::Layers, place: 0, show };
 
 /// Least height of the parameters of the selected layer, in points.
-const LEAST_PARAMETERS: f32 = 160.0;
+const LEAST_PARAMETERS: f32 = 144.0;
 /// Height of the buttons below the list with the space around them, in points.
 const BUTTONS: f32 = 48.0;
 

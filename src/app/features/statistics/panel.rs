@@ -142,7 +142,11 @@ fn target_row(ui: &mut Ui, measured: &Measured, state: &FrameState<'_>, commands
 }
 
 fn fingerprint_row(ui: &mut Ui, measured: &Measured, commands: &mut Vec<Command>) {
-    if ValueRow::new("Fingerprint", &measured.fingerprint).link().show(ui).clicked() {
+    // Both ends are enough to compare by eye; a click copies all of it.
+    let (begin, end) = (measured.fingerprint.get(..8), measured.fingerprint.get(24..));
+    let ends = begin.zip(end).map(|(begin, end)| format!("{begin}…{end}"));
+    let shown = ends.as_ref().unwrap_or(&measured.fingerprint);
+    if ValueRow::new("Fingerprint", shown).link().show(ui).clicked() {
         commands.push(Command::from(ShellCommand::Copy(measured.fingerprint.clone())));
     }
 }

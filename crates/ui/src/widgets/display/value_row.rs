@@ -8,7 +8,8 @@ use crate::widgets::{reveal, tips};
 
 /// A grey name at the left, a bright monospaced value at the right.
 ///
-/// Where both do not fit the value ends in `…`; the tooltip shows all of it. Tests find the row by its name
+/// Where both do not fit side by side, the value is in a line of its own; where that is too short, too, it ends
+/// in `…`, and the tooltip shows all of it. Tests find the row by its name
 /// and read the value from it.
 #[must_use = "call `show`"]
 pub struct ValueRow<'a> {
@@ -56,7 +57,13 @@ impl<'a> ValueRow<'a> {
     pub fn show(self, ui: &mut Ui) -> Response {
         let Self { label, value, help, stands_out, is_link, copies } = self;
         let t = tokens(ui);
-        let row = paint::row(ui);
+        let ink = if stands_out { t.accent } else { t.value };
+        let widths = [(label, font::body()), (value, font::value())]
+            .map(|(text, font)| paint::line(ui, text, font, ink).size().x);
+        let is_long = widths[0] + 8.0 + widths[1] > ui.available_width() && widths[1] > 0.0;
+        let first = paint::row(ui);
+        let last = if is_long { paint::row(ui) } else { first };
+        let row = first.union(last);
         reveal::show_control(ui, row, label);
         let sense = if is_link || copies.is_some() { Sense::click() } else { Sense::hover() };
         let role = if is_link { Role::Button } else { Role::Definition };
@@ -65,20 +72,19 @@ impl<'a> ValueRow<'a> {
             current_text_value: Some(value.to_owned()),
             ..WidgetInfo::labeled(role, true, label)
         });
-        let ink = if stands_out { t.accent } else { t.value };
-        let name = paint::elided(ui, label, font::body(), t.label, row.width() * 0.6);
-        let number = paint::elided(ui, value, font::value(), ink, row.width() - name.size().x - 8.0);
+        let name = paint::elided(ui, label, font::body(), t.label, row.width());
+        let number = paint::elided(ui, value, font::value(), ink, row.width());
         let cut = number.elided || name.elided;
         let is_lit = is_link || copies.is_some() && (response.hovered() || response.has_focus());
         if is_lit {
             let under = row.right() - number.size().x..=row.right();
             let width = if response.hovered() { 1.5 } else { 1.0 };
             let line = Stroke::new(width, if response.hovered() { ink } else { t.faint });
-            ui.painter().hline(under, row.center().y + 8.0, line);
+            ui.painter().hline(under, last.center().y + 8.0, line);
             paint::focus_ring(ui, &response, row, 4);
         }
-        paint::at_left(ui, row, name);
-        paint::at_right(ui, row, number);
+        paint::at_left(ui, first, name);
+        paint::at_right(ui, last, number);
         let response = if is_lit { response.on_hover_cursor(CursorIcon::PointingHand) } else { response };
         let help = if help.is_empty() { tips::sentence(label) } else { help };
         let all = if cut { format!("{label}: {value}") } else { String::new() };

@@ -9,9 +9,9 @@ use glam::dvec2;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::layers::LayerEditor;
 use crate::app::tests::{
-    CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, choose_in_palette, click_button, document,
-    entries, key, level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles,
-    type_into, value_of, wait_until, window, window_of, window_with,
+    CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, choose_in_palette, choose_within,
+    click_button, document, entries, key, level_at, move_to, notice, press_at, release_at, send, set,
+    settings, stroke, triangles, type_into, value_of, wait_until, window, window_of, window_with,
 };
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::Domain;
@@ -265,7 +265,7 @@ fn the_menu_has_every_command_of_the_stack() {
     assert!(active(&window).locked);
     choose(&mut window, "Layer", "Limit gradation");
     assert!(settings(&window).gradation.is_some());
-    choose(&mut window, "Layer", "Add layer: formula for the risk");
+    choose_within(&mut window, "Layer", "Add layer", "formula for the risk");
     assert_eq!(active(&window).name, "Formula");
 }
 
