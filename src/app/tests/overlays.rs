@@ -9,7 +9,7 @@ use super::{
     FREE, RESTING_PLACE, Window, canvas, in_world, on_screen, open_section, send, stroke, wait_for_jobs,
     wait_until,
 };
-use meshbrush_core::document::Example;
+use meshbrush_core::document::{Example, Setting};
 use meshbrush_kit::kit::DockPlace;
 use meshbrush_kit::kit::command::{Command, FileCommand, ViewCommand};
 use meshbrush_kit::kit::view::FieldOverlay;
@@ -190,6 +190,9 @@ fn the_ages_of_triangles_are_exact_at_any_zoom() {
 fn the_legend_of_time_steps_has_the_smallest_one() {
     let mut window = drawn_window_of(vec2(1280.0, 720.0), |_, _| {});
     send(&mut window, Command::from(FileCommand::OpenExample(Example::CelticSea)));
+    wait_for_jobs(&mut window);
+    // A coarse sea is measured soon.
+    super::set(&mut window, Setting::SmallestDiameter(15_000.0));
     open_section(&mut window, "Quality");
     wait_for_jobs(&mut window);
     show(&mut window, ThemePreference::Dark, FieldOverlay::TimeStep);

@@ -29,19 +29,20 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::document::{Example, Settings};
+    use crate::document::{Example, Setting, Settings};
     use crate::layers::Mask;
 
-    fn extent(document: &Document, is_sought: impl Fn(&crate::layers::Layer) -> bool) -> Option<Rect> {
-        let layer = document.settings().layers.iter().find(|layer| is_sought(layer))?;
-        document.layer_extent(layer.id)
+    /// Returns the extent of the first layer that has paint.
+    fn painted_extent(document: &Document) -> Option<Rect> {
+        let painted = document.settings().layers.iter().filter(|layer| layer.paints().is_some());
+        painted.map(|layer| layer.id).find_map(|id| document.layer_extent(id))
     }
 
     #[test]
     fn a_layer_ends_where_its_mask_does_and_paint_where_it_was_painted() {
         let mut threats = Example::Threats.without_data();
         let bounds = threats.settings().domain.bounds;
-        let painted = extent(&threats, |layer| layer.paints().is_some()).expect("paint");
+        let painted = painted_extent(&threats).expect("paint");
         assert!(bounds.size().cmpgt(painted.size()).any() && painted.size().min_element() > 0.0);
         // A corner of the domain as the mask of the painted layer.
         let corner = Rect::new(bounds.min, bounds.min + 0.5 * bounds.size());
@@ -51,15 +52,15 @@ mod tests {
         for layer in &mut layers {
             layer.mask = Some(Mask::new(std::slice::from_ref(&polygon)).unwrap());
         }
-        threats.set(crate::document::Setting::Layers(layers)).unwrap();
-        let masked = extent(&threats, |layer| layer.paints().is_some());
+        threats.set(Setting::Layers(layers)).unwrap();
+        let masked = painted_extent(&threats);
         assert_eq!(masked, corner.intersection(&painted));
     }
 
     #[test]
     fn a_layer_without_paint_asks_for_nothing_anywhere() {
         let blank = Document::new(Settings::default(), None).unwrap();
-        assert_eq!(extent(&blank, |layer| layer.paints().is_some()), None);
+        assert_eq!(painted_extent(&blank), None);
         assert_eq!(blank.layer_extent(LayerId(1_000)), None);
     }
 }

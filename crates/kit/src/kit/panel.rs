@@ -29,8 +29,8 @@ impl Panel {
     }
 }
 
-/// Rows of buttons: name, whether it is enabled, and the command that it sends. A row that has no room goes on
-/// in the next line.
+/// Rows of buttons: name, whether it is enabled, and the command that it sends. A row that has no room goes
+/// on in the next line.
 pub fn button_rows<Row, C>(ui: &mut Ui, rows: impl IntoIterator<Item = Row>, commands: &mut Vec<C>)
 where
     Row: IntoIterator<Item = (&'static str, bool, C)>,

@@ -52,7 +52,8 @@ pub(super) struct NumberCell<'a> {
     pub live: bool,
 }
 
-/// A sentence about what was typed, in egui's memory. It goes away when the value changes, or a person goes on.
+/// A sentence about what was typed, in egui's memory. It goes away when the value changes, or a person goes
+/// on.
 #[derive(Clone, Debug)]
 struct Remark {
     text: String,

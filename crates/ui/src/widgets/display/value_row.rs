@@ -8,9 +8,8 @@ use crate::widgets::{reveal, tips};
 
 /// A grey name at the left, a bright monospaced value at the right.
 ///
-/// Where both do not fit side by side, the value is in a line of its own; where that is too short, too, it ends
-/// in `…`, and the tooltip shows all of it. Tests find the row by its name
-/// and read the value from it.
+/// Where both do not fit side by side, the value has a line of its own; where that is too short, too, it
+/// ends in `…`, and the tooltip shows all of it. Tests find the row by its name and read the value from it.
 #[must_use = "call `show`"]
 pub struct ValueRow<'a> {
     label: &'a str,

@@ -18,6 +18,11 @@ use meshbrush_kit::kit::view::FieldOverlay;
 fn open(window: &mut Window, example: Example) {
     send(window, Command::from(FileCommand::OpenExample(example)));
     wait_for_jobs(window);
+    if example == Example::CelticSea {
+        // A coarse sea is measured soon.
+        set(window, Setting::SmallestDiameter(15_000.0));
+        wait_for_jobs(window);
+    }
     wait_until(window, |window| {
         let session = window.state().session();
         let is_fitted = session.document().settings().domain.region().is_some();
