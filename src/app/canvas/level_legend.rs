@@ -11,7 +11,7 @@ use meshbrush_render::render::furniture::{LevelLegend, LevelRow};
 use meshbrush_ui::theme::{font, tokens};
 
 /// Width of the rows, in points: beside a square domain there is room for them.
-const WIDTH: f32 = 126.0;
+const WIDTH: f32 = 134.0;
 /// Width of a swatch, in points.
 const SWATCH: f32 = 10.0;
 /// Most of the canvas that the legend takes, as shares of its width and of its height.

@@ -13,8 +13,8 @@ use meshbrush_kit::kit::command::{Command, LayerCommand};
 use meshbrush_ui::theme::tokens;
 use meshbrush_ui::widgets::{LayerRow, LayerRowAnswer};
 
-/// Rows that are in sight at least; more scroll. The half row says so.
-const LEAST_ROWS: f32 = 2.5;
+/// Rows that are in sight at least; of more, a half row says that they scroll.
+const LEAST_ROWS: f32 = 3.5;
 
 /// A name that is being typed, in egui's memory.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ pub fn ask_name(ctx: &Context, layer: &Layer) {
 /// Shows the rows, the top layer first, in at most `room` points of height if that is enough for a few.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, room: f32, commands: &mut Vec<Command>) {
     let layers = &state.session.document().settings().layers;
-    let height = room.max(LEAST_ROWS * LayerRow::HEIGHT);
+    let height = room.max(LEAST_ROWS.min(layers.len() as f32) * LayerRow::HEIGHT);
     let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height).id_salt("layers");
     area.show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
