@@ -61,8 +61,8 @@ pub struct BinFigures {
 }
 
 impl QualitySummary {
-    /// Measures the mesh that files get. Without depths there are no time steps. Edges are not compared with h̄:
-    /// that is quick for a person, and not the same number in every front end.
+    /// Measures the mesh that files get. Without depths there are no time steps. Edges are not compared with
+    /// h̄: that is quick for a person, and not the same number in every front end.
     pub fn of(finished: &FinishedMesh, extract: &Extract, depths: Option<&NodeDepths>) -> Self {
         let mut measures = TriangleMeasures::new(extract.view(), finished.ground());
         if let Some(NodeDepths { depths, .. }) = depths {
