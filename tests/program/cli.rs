@@ -108,6 +108,18 @@ fn every_ending_is_written_and_the_files_agree() {
 }
 
 #[test]
+fn furniture_that_a_picture_cannot_have_is_said() {
+    let folder = Folder::new("cli-furniture");
+    let note = "There is no arrow to the north: the document does not lie on the Earth.";
+    for (furniture, is_said) in [("north,scale", true), ("all", false), ("axes", false)] {
+        let options = format!("--furniture {furniture} --size 400");
+        let ran = folder.run(format!("mesh {} -o m.png -o m.svg {options}", diamond(0.25)));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        assert_eq!(ran.err.matches(note).count(), usize::from(is_said), "{furniture}: {}", ran.err);
+    }
+}
+
+#[test]
 fn a_picture_shows_the_levels() {
     let folder = Folder::new("cli-picture");
     let run = |options: &str| {

@@ -220,6 +220,9 @@ pub fn write_files(
     let placed = placed.as_ref().unwrap_or(extract);
     for files in requested {
         let look = files.look_for(finished, extract)?;
+        if files.outputs.iter().any(Output::is_picture) {
+            look.missing_furniture().iter().for_each(|note| terminal.note(note));
+        }
         let quantities = files.values_at_nodes(&exported, Vec::new())?;
         let data = exported.data(&quantities, files.is_flat);
         for output in &files.outputs {

@@ -225,13 +225,29 @@ impl Look {
         Sheet::lay_out(&request, &self.content(furniture, mesh, extract)).map(Some)
     }
 
-    fn content(&self, furniture: Furniture, mesh: &Mesh, extract: &Extract) -> SheetContent {
-        let (lattice, is_plan) = (mesh.lattice(), self.space.is_none());
+    /// Returns the direction to the north in the plane, where the document lies on the Earth.
+    fn direction_to_north(&self) -> Option<DVec2> {
         let is_degrees = self.place.earth() == Some(EarthPlane::Degrees);
-        let north = self.north.or(is_degrees.then_some(DVec2::Y)).filter(|_| furniture.north);
+        self.north.or(is_degrees.then_some(DVec2::Y))
+    }
+
+    /// Returns a sentence about furniture that was asked for by name, and that the picture cannot have.
+    pub fn missing_furniture(&self) -> Option<&'static str> {
+        // Who asks for all means all that there is.
+        let furniture = self.furniture.filter(|furniture| *furniture != Furniture::ALL)?;
+        if furniture.axes && self.space.is_some() {
+            return Some("A picture in space has no axes.");
+        }
+        let lacks_north = furniture.north && self.direction_to_north().is_none();
+        lacks_north.then_some("There is no arrow to the north: the document does not lie on the Earth.")
+    }
+
+    fn content(&self, furniture: Furniture, mesh: &Mesh, extract: &Extract) -> SheetContent {
+        let lattice = mesh.lattice();
+        let north = self.direction_to_north().filter(|_| furniture.north);
         SheetContent {
             legend: furniture.legend.then(|| self.legend(mesh, extract)),
-            axes: (furniture.axes && is_plan).then(|| self.place.axes(lattice)),
+            axes: (furniture.axes && self.space.is_none()).then(|| self.place.axes(lattice)),
             bar: furniture.scale.then(|| self.place.bar(lattice)),
             north: north.map(|north| self.turned(lattice, north)),
             inks: Inks::on(self.ground.theme()),

@@ -271,3 +271,17 @@ fn a_picture_that_is_too_small_says_so() {
     let bare = Look { furniture: Some(Furniture::NONE), ..look };
     assert_eq!(bare.draw(&mesh, &mesh.extract()).unwrap().size, [60, 60]);
 }
+
+#[test]
+fn furniture_that_was_named_and_cannot_be_is_said() {
+    let north = Furniture { north: true, ..Furniture::NONE };
+    let named = |furniture, place| Look { furniture: Some(furniture), ..look("400", place) };
+    let said = named(north, plane(LengthUnit::Metre)).missing_furniture();
+    assert!(said.is_some_and(|said| said.contains("does not lie on the Earth")), "{said:?}");
+    for place in [mercator(), plane(LengthUnit::Degree)] {
+        assert_eq!(named(north, place).missing_furniture(), None);
+    }
+    assert_eq!(named(Furniture::ALL, plane(LengthUnit::Metre)).missing_furniture(), None);
+    let axes = Furniture { axes: true, ..Furniture::NONE };
+    assert_eq!(named(axes, plane(LengthUnit::Metre)).missing_furniture(), None);
+}

@@ -11,6 +11,7 @@ use meshbrush_io::io::{self, asc};
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, cancelled, exported};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 use meshbrush_ui::widgets::format;
 
 /// Cells along the longer side of the domain.
@@ -42,11 +43,16 @@ pub fn export(session: &Session, background: &mut Background, path: &Path) {
         let value = |&target: &f32| if target.is_finite() { target } else { f32::NAN };
         let grid = Raster::from_values(bounds, size, targets.values().iter().map(value).collect());
         let written = io::write_file_metered(&file, meter, |out| asc::write(out, &grid));
+        let in_unit = match unit {
+            LengthUnit::None => String::new(),
+            unit => format!(", in {}", unit.name()),
+        };
+        let is_empty = grid.values().iter().all(|value| value.is_nan());
+        let nothing = if is_empty { " It asks for nothing here: no cell has a value." } else { "" };
         exported(written, meter, &file, || {
             format!(
-                "Exported {}: what the layer “{name}” asks for, in {}. {} × {} cells of {}.",
+                "Exported {}: what the layer “{name}” asks for{in_unit}. {} × {} cells of {}.{nothing}",
                 file.display(),
-                unit.name(),
                 format::count(size[0].into()),
                 format::count(size[1].into()),
                 format::with_unit(&format::digits(side, 4), unit.symbol()),
@@ -67,5 +73,19 @@ mod tests {
         assert!(bounds.min == domain.min && bounds.max.x >= domain.max.x && bounds.max.y >= domain.max.y);
         let cell = bounds.size() / dvec2(columns.into(), rows.into());
         assert!((cell - dvec2(side, side)).abs().max_element() < 1e-12, "{cell}");
+    }
+
+    /// Most programs read no grid with two sides.
+    #[test]
+    fn files_have_one_side_of_cells() {
+        for max in
+            [dvec2(7.0, 4.1), dvec2(0.1, 0.3), dvec2(462_000.3, 1e5), dvec2(1.0 / 3.0, 0.7), dvec2(5e-4, 9.9)]
+        {
+            let (bounds, size, _) = cells_over(Rect::new(dvec2(-3.0, 1e-5), max + dvec2(0.0, 1.0)));
+            let mut out = Vec::new();
+            asc::write(&mut out, &Raster::filled(bounds, size, 1.0)).unwrap();
+            let text = String::from_utf8(out).unwrap();
+            assert!(text.lines().any(|line| line.starts_with("cellsize ")), "{:?}", text.lines().nth(4));
+        }
     }
 }
