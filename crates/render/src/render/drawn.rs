@@ -1,7 +1,8 @@
 //! Drawings as pictures.
 
 use super::Image;
-use meshbrush_study::drawing::{Drawing, DrawnShape, OutlinePart};
+use super::skia::{paint, path_of};
+use meshbrush_study::drawing::{Drawing, DrawnShape};
 
 /// Returns a drawing with so many pixels for a unit of its lengths, smoothed at its outlines.
 pub fn picture_of(drawing: &Drawing, scale: f64) -> Image {
@@ -34,43 +35,10 @@ fn draw(pixmap: &mut tiny_skia::PixmapMut<'_>, shape: &DrawnShape, scale: f32) {
     }
 }
 
-fn path_of(parts: &[OutlinePart]) -> Option<tiny_skia::Path> {
-    let mut builder = tiny_skia::PathBuilder::new();
-    for part in parts {
-        let px = |[x, y]: [f64; 2]| [x as f32, y as f32];
-        match *part {
-            OutlinePart::Move(to) => {
-                let [x, y] = px(to);
-                builder.move_to(x, y);
-            }
-            OutlinePart::Line(to) => {
-                let [x, y] = px(to);
-                builder.line_to(x, y);
-            }
-            OutlinePart::Quadratic(points) => {
-                let [[ax, ay], [x, y]] = points.map(px);
-                builder.quad_to(ax, ay, x, y);
-            }
-            OutlinePart::Cubic(points) => {
-                let [[ax, ay], [bx, by], [x, y]] = points.map(px);
-                builder.cubic_to(ax, ay, bx, by, x, y);
-            }
-            OutlinePart::Close => builder.close(),
-        }
-    }
-    builder.finish()
-}
-
-fn paint([r, g, b, a]: [u8; 4]) -> tiny_skia::Paint<'static> {
-    let mut paint = tiny_skia::Paint::default();
-    paint.set_color_rgba8(r, g, b, a);
-    paint
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use meshbrush_study::drawing::DrawingGroup;
+    use meshbrush_study::drawing::{DrawingGroup, OutlinePart};
 
     #[test]
     fn shapes_are_drawn_in_their_order_at_their_places() {

@@ -16,6 +16,7 @@ pub mod look;
 pub mod north_arrow;
 pub mod path_export;
 pub mod picture_size;
+mod skia;
 pub mod software;
 pub mod space_look;
 #[cfg(test)]

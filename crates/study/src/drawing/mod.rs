@@ -31,6 +31,17 @@ impl OutlinePart {
             Self::Close => Self::Close,
         }
     }
+
+    /// Returns the letter of the part in the language of paths of SVG, and its points.
+    pub fn letter_and_points(&self) -> (char, &[[f64; 2]]) {
+        match self {
+            Self::Move(to) => ('M', std::slice::from_ref(to)),
+            Self::Line(to) => ('L', std::slice::from_ref(to)),
+            Self::Quadratic(points) => ('Q', points),
+            Self::Cubic(points) => ('C', points),
+            Self::Close => ('Z', &[]),
+        }
+    }
 }
 
 /// The outlines of a line of text that begins at 0, 0 on its baseline.

@@ -72,13 +72,7 @@ struct PathData<'a>(&'a [OutlinePart]);
 impl fmt::Display for PathData<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for part in self.0 {
-            let (letter, points) = match part {
-                OutlinePart::Move(to) => ('M', std::slice::from_ref(to)),
-                OutlinePart::Line(to) => ('L', std::slice::from_ref(to)),
-                OutlinePart::Quadratic(points) => ('Q', &points[..]),
-                OutlinePart::Cubic(points) => ('C', &points[..]),
-                OutlinePart::Close => ('Z', &[][..]),
-            };
+            let (letter, points) = part.letter_and_points();
             write!(f, "{letter}")?;
             for (number, [x, y]) in points.iter().enumerate() {
                 let space = if number == 0 { "" } else { " " };

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use glam::{DVec2, dvec2};
+use meshbrush_study::drawing::OutlinePart;
 
 /// Height of capital letters and of digits, as a share of the size of a text.
 pub const CAPITAL: f64 = 0.727;
@@ -10,30 +11,6 @@ pub const CAPITAL: f64 = 0.727;
 /// Outlines of the letters of a font, by letter.
 static GLYPHS: LazyLock<Vec<Glyph>> =
     LazyLock::new(|| include_str!("../../../assets/glyphs.txt").lines().filter_map(Glyph::read).collect());
-
-/// A part of an outline, in pixels with y downwards.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum OutlinePart {
-    /// Begins a contour.
-    Move(DVec2),
-    /// A straight line.
-    Line(DVec2),
-    /// A parabola: its control point and its end.
-    Quad(DVec2, DVec2),
-    /// Closes the contour.
-    Close,
-}
-
-impl OutlinePart {
-    fn map(self, place: impl Fn(DVec2) -> DVec2) -> Self {
-        match self {
-            Self::Move(at) => Self::Move(place(at)),
-            Self::Line(at) => Self::Line(place(at)),
-            Self::Quad(control, at) => Self::Quad(place(control), place(at)),
-            Self::Close => Self::Close,
-        }
-    }
-}
 
 /// A letter, in shares of the size of a text, from the left end of its baseline.
 struct Glyph {
@@ -53,7 +30,7 @@ impl Glyph {
             outline.push(match word {
                 "M" => OutlinePart::Move(point(&mut words)?),
                 "L" => OutlinePart::Line(point(&mut words)?),
-                "Q" => OutlinePart::Quad(point(&mut words)?, point(&mut words)?),
+                "Q" => OutlinePart::Quadratic([point(&mut words)?, point(&mut words)?]),
                 _ => OutlinePart::Close,
             });
         }
@@ -72,8 +49,8 @@ fn thousandths<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<f64> {
     Some(words.next()?.parse::<f64>().ok()? / 1000.0)
 }
 
-fn point<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<DVec2> {
-    Some(dvec2(thousandths(words)?, thousandths(words)?))
+fn point<'a>(words: &mut impl Iterator<Item = &'a str>) -> Option<[f64; 2]> {
+    Some([thousandths(words)?, thousandths(words)?])
 }
 
 /// Returns the width of a letter and where it begins within it: digits are equally wide, so that numbers
@@ -101,7 +78,7 @@ pub fn outline(text: &str, at: DVec2, size_px: f64) -> Vec<OutlinePart> {
         let (width, from) = advance(letter);
         let begin = pen + dvec2(from * size_px, 0.0);
         let of_letter = Glyph::of(letter).outline.iter();
-        parts.extend(of_letter.map(|part| part.map(|point| begin + size_px * point)));
+        parts.extend(of_letter.map(|part| part.map(|point| (begin + size_px * DVec2::from(point)).into())));
         pen.x += width * size_px;
     }
     parts
@@ -126,7 +103,8 @@ mod tests {
         let (size, at) = (20.0, dvec2(30.0, 50.0));
         let text = "N 48°";
         let ends = outline(text, at, size).into_iter().filter_map(|part| match part {
-            OutlinePart::Move(at) | OutlinePart::Line(at) | OutlinePart::Quad(_, at) => Some(at),
+            OutlinePart::Move(at) | OutlinePart::Line(at) => Some(DVec2::from(at)),
+            OutlinePart::Quadratic([_, at]) | OutlinePart::Cubic([_, _, at]) => Some(DVec2::from(at)),
             OutlinePart::Close => None,
         });
         for end in ends {

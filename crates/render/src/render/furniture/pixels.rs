@@ -1,10 +1,11 @@
 //! Draws a sheet into a picture of pixels.
 
-use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, PixmapMut, Stroke, Transform};
+use tiny_skia::{FillRule, LineCap, LineJoin, PathBuilder, PixmapMut, Stroke, Transform};
 
-use super::glyphs::{self, OutlinePart};
+use super::glyphs;
 use super::sheet::{Sheet, SheetMark};
 use crate::render::Image;
+use crate::render::skia::{paint, path_of};
 
 /// Returns the picture of a sheet on a ground, with a map that was drawn in its size. Colours are red, green,
 /// blue and opacity, premultiplied.
@@ -31,7 +32,7 @@ fn draw_mark(pixmap: &mut PixmapMut<'_>, mark: &SheetMark) {
             let sides = [from.x, from.y, to.x, to.y].map(|side| side as f32);
             let rect = tiny_skia::Rect::from_ltrb(sides[0], sides[1], sides[2], sides[3]);
             if let Some(rect) = rect {
-                pixmap.fill_rect(rect, &paint(*color), identity, None);
+                pixmap.fill_rect(rect, &paint(opaque(*color)), identity, None);
             }
         }
         SheetMark::Line { points, width, color } => {
@@ -49,36 +50,19 @@ fn draw_mark(pixmap: &mut PixmapMut<'_>, mark: &SheetMark) {
                 ..Stroke::default()
             };
             if let Some(path) = line.finish() {
-                pixmap.stroke_path(&path, &paint(*color), &stroke, identity, None);
+                pixmap.stroke_path(&path, &paint(opaque(*color)), &stroke, identity, None);
             }
         }
         SheetMark::Text { at, size, text, color } => {
             if let Some(path) = path_of(&glyphs::outline(text, *at, *size)) {
-                pixmap.fill_path(&path, &paint(*color), FillRule::Winding, identity, None);
+                pixmap.fill_path(&path, &paint(opaque(*color)), FillRule::Winding, identity, None);
             }
         }
     }
 }
 
-fn path_of(outline: &[OutlinePart]) -> Option<Path> {
-    let mut path = PathBuilder::new();
-    for part in outline {
-        match part {
-            OutlinePart::Move(at) => path.move_to(at.x as f32, at.y as f32),
-            OutlinePart::Line(at) => path.line_to(at.x as f32, at.y as f32),
-            OutlinePart::Quad(control, at) => {
-                path.quad_to(control.x as f32, control.y as f32, at.x as f32, at.y as f32);
-            }
-            OutlinePart::Close => path.close(),
-        }
-    }
-    path.finish()
-}
-
-fn paint([r, g, b]: [u8; 3]) -> Paint<'static> {
-    let mut paint = Paint::default();
-    paint.set_color_rgba8(r, g, b, 0xff);
-    paint
+fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
+    [r, g, b, 0xff]
 }
 
 /// Returns a picture with plain colours, as files have them, from one with colours that are multiplied by

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use glam::DVec2;
 
-use super::glyphs::{self, OutlinePart};
+use super::glyphs;
 use super::sheet::{Sheet, SheetMark};
 use meshbrush_io::io::svg::{ShapePaint, SvgShape};
 
@@ -37,24 +37,16 @@ fn shape_of(mark: &SheetMark) -> SvgShape {
         SheetMark::Text { at, size, text, color } => {
             let mut path = String::new();
             for part in glyphs::outline(text, *at, *size) {
-                match part {
-                    OutlinePart::Move(at) => push_to(&mut path, 'M', at),
-                    OutlinePart::Line(at) => push_to(&mut path, 'L', at),
-                    OutlinePart::Quad(control, at) => {
-                        push_to(&mut path, 'Q', control);
-                        push_to(&mut path, ' ', at);
-                    }
-                    OutlinePart::Close => path.push('Z'),
+                let (letter, points) = part.letter_and_points();
+                path.push(letter);
+                for (number, at) in points.iter().enumerate() {
+                    path.push_str(if number == 0 { "" } else { " " });
+                    push(&mut path, (*at).into());
                 }
             }
             SvgShape { path, paint: ShapePaint::Fill(*color), title: Some(text.clone()) }
         }
     }
-}
-
-fn push_to(path: &mut String, letter: char, at: DVec2) {
-    path.push(letter);
-    push(path, at);
 }
 
 fn push(path: &mut String, at: DVec2) {

@@ -22,6 +22,7 @@ use self::groups::TriangleGroups;
 use self::painter::{Painter, TriangleArrays, ground};
 use super::Image;
 use super::draw_flags::DrawFlags;
+use super::skia::paint;
 use crate::scene::{Camera, Outline, Overlay, ShownMesh, ShownRevision, Style};
 use meshbrush_mesh::mesh::Extract;
 
@@ -139,12 +140,6 @@ fn closed_path(polygon: &[[f32; 2]]) -> Option<tiny_skia::Path> {
     }
     builder.close();
     builder.finish()
-}
-
-fn paint([r, g, b, a]: [u8; 4]) -> tiny_skia::Paint<'static> {
-    let mut paint = tiny_skia::Paint::default();
-    paint.set_color_rgba8(r, g, b, a);
-    paint
 }
 
 #[cfg(test)]
