@@ -11,7 +11,7 @@ use meshbrush_kit::kit::command::{BrushCommand, Command, ShellCommand, ViewComma
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::tools::Tools;
 use meshbrush_kit::kit::view::View;
-use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
+use meshbrush_kit::kit::{CatalogItem, FrameState, MENU_WIDTH, Menu, Pointer, menu_item};
 use meshbrush_ui::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
 /// Identifies the menu, and where it was opened in egui's memory.
@@ -45,7 +45,7 @@ pub fn show(ui: &Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     is_key_menu(ui.ctx(), id()); // gives the focus back
     let popup = Popup::new(id(), ui.ctx().clone(), at, ui.layer_id()).kind(PopupKind::Menu).open_memory(None);
     popup.style(eframe::egui::containers::menu::menu_style).show(|ui| {
-        ui.set_min_width(220.0);
+        ui.set_min_width(MENU_WIDTH);
         let items = items(state, world);
         let buttons: Vec<_> = items.iter().map(|item| menu_item(ui, item, commands)).collect();
         enter_menu(ui.ctx(), id(), &buttons);

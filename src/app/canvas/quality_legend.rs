@@ -4,7 +4,7 @@ use eframe::egui::{Rect, Ui, vec2};
 
 use super::legend::{ROW, WIDTH, below_scale, boxed, no_layer, scale};
 use super::overlay_palette::{EDGE_RATIOS, LARGEST_ANGLES, MOST_SLACK, OverlayPalette, SMALLEST_ANGLES};
-use crate::app::features::statistics::Statistics;
+use crate::app::features::statistics::{NoTimeStep, Statistics};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_core::quality::QualityMeasure;
 use meshbrush_kit::kit::FrameState;
@@ -42,7 +42,7 @@ pub(super) fn show(
         }
         QualityMeasure::TimeStep => match time_note(state) {
             Ok(note) => ("Time step / smallest", texts(["1", "4", "≥ 16"]), note),
-            Err(missing) => return no_layer(ui, inner, "Time step", missing),
+            Err(missing) => return no_layer(ui, inner, "Time step", missing.reason()),
         },
     };
     let spoken = format!("Legend: {title} {} to {}", ends[0], ends[2]);
@@ -71,13 +71,13 @@ fn number_of_cell(measure: QualityMeasure, cell: u16) -> f32 {
 ///
 /// # Errors
 /// Says why there are no time steps.
-fn time_note(state: &FrameState<'_>) -> Result<String, &'static str> {
+fn time_note(state: &FrameState<'_>) -> Result<String, NoTimeStep> {
     let settings = state.session.document().settings();
     if settings.unit == LengthUnit::Degree {
-        return Err("lengths are degrees");
+        return Err(NoTimeStep::Degrees);
     }
     if DepthSurface::of(&settings.layers).is_none() {
-        return Err("no layer of depths");
+        return Err(NoTimeStep::NoDepths);
     }
     let smallest = state.feature::<Statistics>().smallest_time_step(state.session);
     Ok(smallest.map_or_else(String::new, |seconds| format!("smallest {}", format::time(seconds))))

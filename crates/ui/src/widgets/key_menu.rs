@@ -19,10 +19,21 @@ fn data_id(menu: Id) -> Id {
 }
 
 /// Opens the menu of a control with the focus, if the keys for it are pressed.
-pub fn open_menu_by_keys(menu: Id, control: &Response) {
+fn open_menu_by_keys(menu: Id, control: &Response) {
     let ctx = &control.ctx;
     if control.has_focus() && ctx.input_mut(|input| input.consume_shortcut(&MENU_KEYS)) {
         open_menu_from(ctx, menu, control.id);
+    }
+}
+
+/// Returns the menu of a control, opened by the secondary button, or by keyboard while the control has the
+/// focus. Its id is [`Popup::default_response_id`].
+pub fn menu_of(control: &Response) -> Popup<'_> {
+    let id = Popup::default_response_id(control);
+    open_menu_by_keys(id, control);
+    match is_key_menu(&control.ctx, id) {
+        true => Popup::menu(control).open_memory(None),
+        false => Popup::context_menu(control),
     }
 }
 

@@ -77,7 +77,7 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
         begins_typing: new_name.as_ref().is_some_and(|new_name| !new_name.is_shown),
     };
     let (response, answer) = row.show(ui, new_name.as_mut().map(|new_name| &mut new_name.text));
-    row_menu::show(ui, state, layer, &response, commands);
+    row_menu::show(state, layer, &response, commands);
     if let Some(new_name) = new_name {
         let name = new_name.keep(ui, answer).filter(|name| !name.is_empty() && *name != layer.name);
         commands.extend(name.map(|name| Command::from(LayerCommand::Rename(layer.id, name))));

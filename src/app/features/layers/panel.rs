@@ -4,7 +4,7 @@ use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{list, selected};
 use meshbrush_kit::kit::command::{Command, LayerCommand};
-use meshbrush_kit::kit::{CatalogItem, FrameState, Menu, Panel, Tab, menu_item};
+use meshbrush_kit::kit::{CatalogItem, FrameState, MENU_WIDTH, Menu, Panel, Tab, menu_item};
 use meshbrush_ui::theme::metrics;
 use meshbrush_ui::widgets::{Icon, Section, ToolButton};
 
@@ -67,7 +67,7 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 fn add_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let response = ToolButton::small(Icon::ADD, "Add layer").show(ui);
     Popup::menu(&response).show(|ui| {
-        ui.set_min_width(220.0);
+        ui.set_min_width(MENU_WIDTH);
         for (number, kind) in state.layer_kinds.iter().enumerate() {
             for (i, addition) in kind.additions.iter().enumerate() {
                 let item = CatalogItem::new(Menu::Layer, addition.title, (addition.command)(state));

@@ -1,21 +1,18 @@
 //! The menu of a row of the list of layers, opened by the secondary button or by keyboard.
 
-use eframe::egui::{Popup, Response, Ui};
+use eframe::egui::{Popup, Response};
 
 use super::{EXPORT_GRID, OPEN_MASK};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use meshbrush_core::layers::Layer;
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 use meshbrush_kit::kit::{CatalogItem, FrameState, MENU_WIDTH, Menu, menu_item};
-use meshbrush_ui::widgets::key_menu::{enter_menu, is_key_menu, open_menu_by_keys};
+use meshbrush_ui::widgets::key_menu::{enter_menu, menu_of};
 
 /// Shows the menu of a layer while it is open. What acts on the selected layer selects this one first.
-pub fn show(ui: &Ui, state: &FrameState<'_>, layer: &Layer, row: &Response, commands: &mut Vec<Command>) {
+pub fn show(state: &FrameState<'_>, layer: &Layer, row: &Response, commands: &mut Vec<Command>) {
     let id = Popup::default_response_id(row);
-    open_menu_by_keys(id, row);
-    let popup =
-        if is_key_menu(ui.ctx(), id) { Popup::menu(row).open_memory(None) } else { Popup::context_menu(row) };
-    popup.show(|ui| {
+    menu_of(row).show(|ui| {
         ui.set_min_width(MENU_WIDTH);
         let mut chosen = Vec::new();
         let items = items(state, layer);

@@ -48,6 +48,16 @@ pub enum NoTimeStep {
     Degrees,
 }
 
+impl NoTimeStep {
+    /// Returns the reason in a few words.
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::NoDepths => "no layer of depths",
+            Self::Degrees => "lengths are degrees",
+        }
+    }
+}
+
 /// The mesh to be measured, with what it is compared with.
 pub struct Measuring {
     /// The mesh with its nodes on the outline, where there is one.

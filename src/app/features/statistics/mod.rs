@@ -10,6 +10,7 @@ mod quality;
 mod tests;
 
 pub use command::StatisticsCommand;
+pub use measuring::NoTimeStep;
 use measuring::{Measured, Measuring};
 
 use meshbrush_kit::kit::derivation::MeasuredMesh;

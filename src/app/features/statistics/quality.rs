@@ -3,7 +3,6 @@
 use eframe::egui::{Ui, vec2};
 
 use super::figures::COURANT;
-use super::measuring::NoTimeStep;
 use super::panel::{PlaceRow, figures_of};
 use super::{Measured, Statistics, StatisticsCommand};
 use meshbrush_core::quality::{MeasureSummary, MeasuredPlace, QualityBin, QualityMeasure};
@@ -40,23 +39,17 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 
 /// The Courant number of time steps, or the reason why there are none.
 fn courant_row(ui: &mut Ui, measured: &Measured, courant: f64, commands: &mut Vec<Command>) {
-    let reason = match measured.no_time_step {
-        Some(NoTimeStep::NoDepths) => "no layer of depths",
-        Some(NoTimeStep::Degrees) => "lengths are degrees",
-        None => {
-            let mut number = courant;
-            let row = NumberRow::new("Courant number", &mut number).range(COURANT).default(1.0);
-            let help =
-                "The Courant number that your solver allows along an edge. Time steps below follow it.";
-            if row.help(help).show(ui).changed() {
-                commands.push(Command::from(StatisticsCommand::SetCourant(number)));
-            }
-            return;
-        }
-    };
-    let help =
-        "The largest time step of a solver follows from the depths of a layer, and from lengths in metres.";
-    ValueRow::new("Time step", reason).help(help).show(ui);
+    if let Some(missing) = measured.no_time_step {
+        let help = "The largest time step of a solver follows from the depths of a layer, and from lengths in metres.";
+        ValueRow::new("Time step", missing.reason()).help(help).show(ui);
+        return;
+    }
+    let mut number = courant;
+    let row = NumberRow::new("Courant number", &mut number).range(COURANT).default(1.0);
+    let help = "The Courant number that your solver allows along an edge. Time steps below follow it.";
+    if row.help(help).show(ui).changed() {
+        commands.push(Command::from(StatisticsCommand::SetCourant(number)));
+    }
 }
 
 /// The narrowest strait, where a layer of straits has found it.

@@ -3,7 +3,7 @@
 use egui::{Button, Event, Id, Popup, Response, Ui, ViewportCommand};
 
 use super::number_input::NumberInput;
-use crate::widgets::key_menu::{enter_menu, is_key_menu, open_menu_by_keys};
+use crate::widgets::key_menu::{enter_menu, menu_of};
 
 /// How a number in a field is changed, for its tooltip.
 pub(super) const WAYS: &str = "Type it, drag it, or hold Ctrl and turn the wheel. Right-click or Shift+F10 for its default, Copy and Paste.";
@@ -20,13 +20,7 @@ pub(super) fn number_menu(
     cell: Option<Id>,
 ) -> Option<f64> {
     let id = Popup::default_response_id(response);
-    open_menu_by_keys(id, response);
-    let popup = if is_key_menu(ui.ctx(), id) {
-        Popup::menu(response).open_memory(None)
-    } else {
-        Popup::context_menu(response)
-    };
-    popup.show(|menu| entries(ui, menu, id, input, cell)).and_then(|shown| shown.inner)
+    menu_of(response).show(|menu| entries(ui, menu, id, input, cell)).and_then(|shown| shown.inner)
 }
 
 fn entries(ui: &Ui, menu: &mut Ui, id: Id, input: &NumberInput<'_>, cell: Option<Id>) -> Option<f64> {

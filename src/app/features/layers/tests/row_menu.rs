@@ -73,6 +73,20 @@ fn the_view_goes_to_what_a_layer_asks_for_or_says_that_it_asks_for_nothing() {
     assert!(notice(&window).contains("“Painted diameter” asks for nothing"), "{}", notice(&window));
 }
 
+#[test]
+fn a_grid_of_a_layer_that_asks_for_nothing_says_so() {
+    let path = folder("app-layers", "empty grid").join("layer.asc");
+    let mut window = window();
+    select(&mut window, "Painted diameter");
+    send(&mut window, Command::from(LayerCommand::ExportGrid(path)));
+    wait_for_jobs(&mut window);
+    assert!(
+        notice(&window).ends_with("It asks for nothing here: no cell has a value."),
+        "{}",
+        notice(&window)
+    );
+}
+
 /// Returns the header of a grid as pairs, and its rows from the top.
 fn parsed(text: &str) -> (Vec<(String, f64)>, Vec<Vec<f64>>) {
     let is_header = |line: &&str| line.starts_with(|c: char| c.is_alphabetic());
@@ -95,7 +109,8 @@ fn a_layer_is_written_as_a_grid_of_what_it_asks_for() {
     select_base(&mut window);
     send(&mut window, Command::from(LayerCommand::ExportGrid(path.clone())));
     wait_for_jobs(&mut window);
-    assert!(notice(&window).contains("1,024 × 1,024 cells"), "{}", notice(&window));
+    let said = "what the layer “Base” asks for. 1,024 × 1,024 cells of 0.0009766.";
+    assert!(notice(&window).ends_with(said), "{}", notice(&window));
     let (header, rows) = parsed(&std::fs::read_to_string(path).unwrap());
     let of = |name: &str| header.iter().find(|(other, _)| other == name).expect("in the header").1;
     assert_eq!((of("ncols"), of("nrows"), rows.len()), (1024.0, 1024.0, 1024));
