@@ -3,16 +3,22 @@
 
 use std::collections::BTreeSet;
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::epaint::ClippedShape;
 use eframe::egui::{Rect, Shape, Vec2, vec2};
 
-use super::{Window, canvas, open_tab, send, settings, wait_for_jobs, window_of};
-use meshbrush_core::document::Example;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use super::{Window, canvas, open_tab, send, set, settings, wait_for_jobs, window_of};
+use meshbrush_core::document::{Example, Setting};
 use meshbrush_kit::kit::Tab;
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 
 /// A window of 1280 × 720 pixels at scales of 1, 1.5 and 2: its sizes in points.
 const SIZES: [Vec2; 3] = [vec2(1280.0, 720.0), vec2(1280.0 / 1.5, 480.0), vec2(640.0, 360.0)];
+
+/// A height with room for every section of a tab, in points.
+const TALL: f32 = 4000.0;
 
 /// A text as it was painted.
 struct PaintedText {
@@ -51,7 +57,11 @@ fn collect(shape: &Shape, clip: Rect, texts: &mut Vec<PaintedText>) {
 /// Returns what is wrong with the texts of the docks and bars of a window.
 fn faults(window: &Window) -> Vec<String> {
     // A person's own names can be of any length; a tooltip has all of them.
-    let names: Vec<_> = settings(window).layers.iter().map(|layer| layer.name.as_str()).collect();
+    let settings = settings(window);
+    let is_of_person = |text: &str| {
+        let title = [settings.name.clone(), format!("{} — edited", settings.name)];
+        title.iter().any(|title| title == text) || settings.layers.iter().any(|layer| layer.name == text)
+    };
     let canvas = canvas(window);
     let texts: Vec<_> =
         texts(window).into_iter().filter(|text| !canvas.contains(text.rect.center())).collect();
@@ -61,7 +71,7 @@ fn faults(window: &Window) -> Vec<String> {
         if text.rect.top() < text.clip.top() || text.rect.bottom() > text.clip.bottom() {
             continue;
         }
-        if text.is_elided && !names.contains(&&*text.text) {
+        if text.is_elided && !is_of_person(&text.text) {
             faults.push(format!("“{}” has no room", text.text));
         }
         if text.rect.left() < text.clip.left() - 0.5 || text.rect.right() > text.clip.right() + 0.5 {
@@ -82,22 +92,47 @@ fn report(window: &Window, what: &str, found: &mut BTreeSet<String>) {
     found.extend(faults(window).into_iter().map(|fault| format!("{what}: {fault}")));
 }
 
-/// Looks at every tab and every layer of an example.
+/// Opens every section of the docks that is in the window.
+fn open_sections(window: &mut Window) {
+    loop {
+        let closed = window.query_all_by_role(Role::Button).find(|node| {
+            node.accesskit_node().data().is_expanded() == Some(false)
+                && node.rect().left() > canvas(window).right()
+        });
+        let Some(header) = closed else { return };
+        header.click();
+        window.run();
+    }
+}
+
+/// Looks at every tab and every layer of an example, in a window of a size and in one that is as wide and has
+/// room for all sections at once.
 fn check(size: Vec2, example: Example) {
     let mut found = BTreeSet::new();
     let mut window = window_of(size);
     send(&mut window, Command::from(FileCommand::OpenExample(example)));
     wait_for_jobs(&mut window);
-    for tab in Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method) {
-        open_tab(&mut window, tab);
-        wait_for_jobs(&mut window);
-        report(&window, &format!("tab {}", tab.name()), &mut found);
-    }
-    let layers: Vec<_> = settings(&window).layers.iter().map(|layer| layer.id).collect();
-    for id in layers {
-        send(&mut window, Command::from(LayerCommand::Select(id)));
-        let name = settings(&window).layer(id).unwrap().name.clone();
-        report(&window, &format!("layer {name}"), &mut found);
+    // A coarse mesh is measured soon.
+    let coarse = 8.0 * settings(&window).transfer.h_min;
+    set(&mut window, Setting::SmallestDiameter(coarse));
+    wait_for_jobs(&mut window);
+    for height in [size.y, TALL] {
+        window.set_size(vec2(size.x, height));
+        window.run();
+        for tab in Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method) {
+            open_tab(&mut window, tab);
+            if height == TALL {
+                open_sections(&mut window);
+            }
+            wait_for_jobs(&mut window);
+            report(&window, &format!("tab {}", tab.name()), &mut found);
+        }
+        let layers: Vec<_> = settings(&window).layers.iter().map(|layer| layer.id).collect();
+        for id in layers {
+            send(&mut window, Command::from(LayerCommand::Select(id)));
+            let name = settings(&window).layer(id).unwrap().name.clone();
+            report(&window, &format!("layer {name}"), &mut found);
+        }
     }
     let faults = found.into_iter().collect::<Vec<_>>().join("\n");
     assert!(faults.is_empty(), "{example:?} at {size}:\n{faults}");

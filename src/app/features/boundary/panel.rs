@@ -82,7 +82,7 @@ fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
 fn box_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let id = ui.make_persistent_id(("box to open", state.session.document_id()));
     let mut text: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    let row = TextRow::new("In a box", &mut text).hint("west, south, east, north");
+    let row = TextRow::new("In a box", &mut text).hint("W, S, E, N");
     let help =
         "Enter opens the boundary in the box: in degrees on the Earth, or else in the unit of the document.";
     let response = row.help(help).show(ui);

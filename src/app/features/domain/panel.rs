@@ -174,11 +174,8 @@ fn bounds_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
 /// The formula that selects a part of the bounds.
 fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let domain = &state.session.document().settings().domain;
-    let hint = if domain.region().is_some() {
-        "in the polygons; or x^2 + y^2 < 1"
-    } else {
-        "everywhere; or x^2 + y^2 < 1"
-    };
+    let hint =
+        if domain.region().is_some() { "polygons; or x^2 + y^2 < 1" } else { "everywhere; or x^2 + y^2 < 1" };
     let help = "The domain is made of the coarse triangles at whose three corners this formula is true: a staircase of coarse cells, \
                 nearer to the shape with a smaller spacing.";
     let row = FormulaRow { label: "Domain where", hint, help };

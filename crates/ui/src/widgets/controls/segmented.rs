@@ -1,6 +1,8 @@
 //! One of a few choices, side by side.
 
-use egui::{self, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{
+    self, Color32, EventFilter, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
 
 use super::paint;
 use crate::theme::{font, metrics, tokens};
@@ -22,8 +24,8 @@ pub fn segmented<T: PartialEq + Copy>(
     reveal::show_control(ui, rect, name);
     paint_well(ui, rect);
     let before = *value;
-    for (i, (choice, label)) in choices.iter().enumerate() {
-        let place = segment_rect(rect, i, choices.len());
+    let places = segment_places(ui, rect, choices.iter().map(|(_, label)| *label));
+    for (i, ((choice, label), place)) in choices.iter().zip(places).enumerate() {
         let response = segment(ui, place, name, label, *choice == before);
         if response.clicked() {
             *value = *choice;
@@ -44,11 +46,26 @@ fn paint_well(ui: &Ui, rect: Rect) {
     ui.painter().rect(rect, metrics::RADIUS_CONTROL, t.well, t.hairline(), StrokeKind::Inside);
 }
 
-fn segment_rect(rect: Rect, index: usize, count: usize) -> Rect {
+/// Free space at each end of a name, in points.
+const PADDING: f32 = 4.0;
+
+/// Returns the places of the segments: equally wide where each has room for its name, or else as wide as the
+/// names ask for.
+fn segment_places<'a>(ui: &Ui, rect: Rect, labels: impl Iterator<Item = &'a str>) -> Vec<Rect> {
     let inner = rect.shrink(3.0);
-    let width = inner.width() / count as f32;
-    let left = inner.left() + width * index as f32;
-    Rect::from_x_y_ranges(left..=left + width, inner.y_range())
+    let text = |label| paint::line(ui, label, font::body(), Color32::PLACEHOLDER).size().x.ceil();
+    let widths: Vec<f32> = labels.map(|label| text(label) + 2.0 * PADDING).collect();
+    let equal = inner.width() / widths.len() as f32;
+    let fits = widths.iter().all(|width| *width <= equal);
+    let spare = (inner.width() - widths.iter().sum::<f32>()) / widths.len() as f32;
+    let mut left = inner.left();
+    let place = |width: f32| {
+        let right = left + if fits { equal } else { width + spare };
+        let place = Rect::from_x_y_ranges(left..=right, inner.y_range());
+        left = right;
+        place
+    };
+    widths.into_iter().map(place).collect()
 }
 
 fn segment_id(ui: &Ui, group: &str, label: &str) -> egui::Id {
@@ -69,7 +86,7 @@ fn segment(ui: &Ui, rect: Rect, group: &str, label: &str, chosen: bool) -> Respo
         (false, false) => t.label,
     };
     paint::focus_ring(ui, &response, rect.shrink(2.0), metrics::RADIUS_CONTROL - 3);
-    paint::at_centre(ui, rect, paint::elided(ui, label, font::body(), ink, rect.width() - 8.0));
+    paint::at_centre(ui, rect, paint::elided(ui, label, font::body(), ink, rect.width() - 2.0 * PADDING));
     tips::explain(ui, response, tips::sentence(&format!("{group}/{label}")))
 }
 

@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use egui::accesskit::Action;
 use egui::{
-    self, Align, CursorIcon, Id, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
+    self, Align, Color32, CursorIcon, Id, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, Vec2,
+    WidgetInfo, vec2,
 };
 
 use super::grab;
@@ -24,6 +25,9 @@ const ID: &str = "transfer curve";
 const HEIGHT: f32 = 104.0;
 /// Space between the two numbers below the plot.
 const NUMBER_GAP: f32 = 16.0;
+/// Space between the name of an end point and the ground of its number, and that within the ground on each side.
+const NAME_GAP: f32 = 8.0;
+const NUMBER_PADDING: f32 = 8.0;
 /// Width and height of the place where a handle is grabbed.
 const GRAB: Vec2 = vec2(20.0, 20.0);
 /// Width of the axis' numbers.
@@ -366,23 +370,38 @@ impl<'a> TransferCurve<'a> {
         paint::at_right(ui, row, text);
     }
 
-    /// Shows the row below: the numbers of both end points, which can be typed.
+    /// Shows the numbers of both end points below the curve, which can be typed: side by side, or where they
+    /// are too long for that, each in a row of its own.
     fn numbers(&mut self, ui: &mut Ui, id: Id) -> Response {
-        let row = paint::row(ui);
-        let half = (row.width() - NUMBER_GAP) / 2.0;
-        let left = row.with_max_x(row.left() + half);
-        let right = row.with_min_x(row.right() - half);
+        let ends = [Handle::Max, Handle::Min];
+        let widest = ends.map(|handle| self.number_width(ui, handle)).into_iter().fold(0.0, f32::max);
+        let first = paint::row(ui);
+        let half = (first.width() - NUMBER_GAP) / 2.0;
+        let places = match widest <= half {
+            true => [first.with_max_x(first.left() + half), first.with_min_x(first.right() - half)],
+            false => [first, paint::row(ui)],
+        };
+        let [left, right] = places;
         let response = self.number(ui, id, left, Handle::Max) | self.number(ui, id, right, Handle::Min);
-        for handle in [Handle::Max, Handle::Min] {
-            NumberCell::show_remark(ui, number_id(id, handle), row, self.number_of(handle));
+        for handle in ends {
+            let rows = first.union(right);
+            NumberCell::show_remark(ui, number_id(id, handle), rows, self.number_of(handle));
         }
         response
+    }
+
+    /// Returns the width that the name and the number of an end point need.
+    fn number_width(&self, ui: &Ui, handle: Handle) -> f32 {
+        let shown = self.with_input(handle, |input| (input.show)(input.value));
+        let width = |text: &str, font| paint::line(ui, text, font, Color32::PLACEHOLDER).size().x.ceil();
+        let name = width(handle.name(), font::small_value());
+        name + NAME_GAP + 2.0 * NUMBER_PADDING + width(&shown, font::value())
     }
 
     /// Shows the name and number of an end point.
     fn number(&mut self, ui: &mut Ui, id: Id, rect: Rect, handle: Handle) -> Response {
         let name = paint::line(ui, handle.name(), font::small_value(), tokens(ui).label);
-        let cell = rect.with_min_x(rect.left() + name.size().x + 8.0).shrink2(vec2(8.0, 0.0));
+        let cell = rect.with_min_x(rect.left() + name.size().x + NAME_GAP).shrink2(vec2(NUMBER_PADDING, 0.0));
         reveal::show_control(ui, rect, handle.name());
         paint::at_left(ui, rect, name);
         let (name, help) = (format!("{} value", handle.name()), tips::sentence(handle.name()));

@@ -6,6 +6,9 @@ use super::paint;
 use crate::theme::{font, tokens};
 use crate::widgets::{reveal, tips};
 
+/// Least space between a name and its value, in points.
+const GAP: f32 = 8.0;
+
 /// A grey name at the left, a bright monospaced value at the right.
 ///
 /// Where both do not fit side by side, the value has a line of its own; where that is too short, too, it
@@ -15,6 +18,8 @@ pub struct ValueRow<'a> {
     label: &'a str,
     value: &'a str,
     help: &'a str,
+    /// Width of what another widget puts after the name, in points.
+    after_name: f32,
     stands_out: bool,
     is_link: bool,
     /// The text that a click copies, if it copies one.
@@ -29,12 +34,17 @@ pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
 impl<'a> ValueRow<'a> {
     /// Creates a row.
     pub fn new(label: &'a str, value: &'a str) -> Self {
-        Self { label, value, help: "", stands_out: false, is_link: false, copies: None }
+        Self { label, value, help: "", after_name: 0.0, stands_out: false, is_link: false, copies: None }
     }
 
     /// Shown when the pointer rests on the row; without it, the sentence known for its name.
     pub fn help(self, help: &'a str) -> Self {
         Self { help, ..self }
+    }
+
+    /// Leaves room after the name for what another widget puts there, in points.
+    pub(super) fn after_name(self, width: f32) -> Self {
+        Self { after_name: width, ..self }
     }
 
     /// Colours the value, where it needs attention.
@@ -47,19 +57,20 @@ impl<'a> ValueRow<'a> {
         Self { is_link: true, ..self }
     }
 
-    /// Returns a click copies `exact`, the value in full, which the tooltip shows.
+    /// Says that a click copies `exact`, the value in full, which the tooltip shows.
     pub fn copies(self, exact: &'a str) -> Self {
         Self { copies: Some(exact), ..self }
     }
 
     /// Shows the row. Where it is a link or copies, `clicked` says when to act.
     pub fn show(self, ui: &mut Ui) -> Response {
-        let Self { label, value, help, stands_out, is_link, copies } = self;
+        let Self { label, value, help, after_name, stands_out, is_link, copies } = self;
         let t = tokens(ui);
         let ink = if stands_out { t.accent } else { t.value };
-        let widths = [(label, font::body()), (value, font::value())]
-            .map(|(text, font)| paint::line(ui, text, font, ink).size().x);
-        let is_long = widths[0] + 8.0 + widths[1] > ui.available_width() && widths[1] > 0.0;
+        let room = ui.available_width();
+        let name = paint::elided(ui, label, font::body(), t.label, room - after_name);
+        let number = paint::elided(ui, value, font::value(), ink, room);
+        let is_long = !value.is_empty() && name.size().x + after_name + GAP + number.size().x > room;
         let first = paint::row(ui);
         let last = if is_long { paint::row(ui) } else { first };
         let row = first.union(last);
@@ -71,8 +82,6 @@ impl<'a> ValueRow<'a> {
             current_text_value: Some(value.to_owned()),
             ..WidgetInfo::labeled(role, true, label)
         });
-        let name = paint::elided(ui, label, font::body(), t.label, row.width());
-        let number = paint::elided(ui, value, font::value(), ink, row.width());
         let cut = number.elided || name.elided;
         let is_lit = is_link || copies.is_some() && (response.hovered() || response.has_focus());
         if is_lit {
