@@ -25,7 +25,7 @@ const ID: &str = "transfer curve";
 const HEIGHT: f32 = 104.0;
 /// Space between the two numbers below the plot.
 const NUMBER_GAP: f32 = 16.0;
-/// Space between the name of an end point and the ground of its number, and that within the ground on each side.
+/// Space between the name of an end point and its number, and around the number, in points.
 const NAME_GAP: f32 = 8.0;
 const NUMBER_PADDING: f32 = 8.0;
 /// Width and height of the place where a handle is grabbed.
