@@ -52,7 +52,7 @@ static SYNONYMS: &[(&str, &str)] = &[
         "Overlay edge ratio",
         "show colour field quality bad elements aspect ratio skewness sliver slivers stretched",
     ),
-    ("Overlay longest edge by h̄", "show colour field quality target size ratio too coarse finer honoured"),
+    ("Overlay longest edge / h̄", "show colour field quality target size ratio too coarse finer honoured"),
     ("Overlay time step", "show colour field cfl courant stability smallest step solver"),
     ("Overlay", "show colour field"),
     ("Graticule", "meridians parallels longitude latitude degrees grid lines map"),

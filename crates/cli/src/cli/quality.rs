@@ -18,7 +18,7 @@ pub struct QualitySummary {
     /// The largest angles of triangles, in degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_angle: Option<MeasureFigures>,
-    /// The longest edges of triangles by their shortest.
+    /// The ratios of the longest to the shortest edges of triangles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge_ratio: Option<MeasureFigures>,
     /// The largest time steps of triangles with the Courant number 1, in seconds.

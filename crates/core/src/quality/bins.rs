@@ -26,7 +26,7 @@ pub struct QualityBin {
 pub(super) enum Classes {
     /// Classes of one width. The last one has no end where `is_open`.
     Even { from: f64, width: f64, count: usize, is_open: bool, bound: Bound },
-    /// Each class begins at twice the number of the one before, the first one here.
+    /// The first class begins at this number, and each other one at twice that of the class before it.
     Octaves(f64),
 }
 

@@ -15,12 +15,12 @@ pub enum QualityMeasure {
     SmallestAngle,
     /// The largest angle of a triangle, in degrees: at least 60.
     LargestAngle,
-    /// The longest edge of a triangle by its shortest: at least 1.
+    /// The ratio of the longest to the shortest edge of a triangle: at least 1.
     EdgeRatio,
-    /// The longest edge of a triangle by h̄ at its middle.
+    /// The ratio of the longest edge of a triangle to h̄ at its middle.
     TargetRatio,
-    /// The time in which a wave of 1 m runs along the edge of a triangle where it is shortest, in seconds:
-    /// the largest time step with the Courant number 1.
+    /// The shortest time that a wave of 1 m takes along an edge of a triangle, in seconds: the largest time
+    /// step with the Courant number 1.
     TimeStep,
     /// The triangles at a node.
     Valence,
@@ -164,7 +164,7 @@ impl<'a> TriangleMeasures<'a> {
     }
 }
 
-/// Returns the longest edge by the shortest.
+/// Returns the ratio of the longest to the shortest edge.
 fn ratio(edges: [f64; 3]) -> f64 {
     let [shortest, longest] = range(edges);
     longest / shortest

@@ -43,11 +43,11 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Overlay/Largest angle", "Shows the largest angle of each triangle: obtuse ones are red."),
     (
         "Overlay/Edge ratio",
-        "Shows the longest edge of each triangle by its shortest: long thin ones are red.",
+        "Shows the ratio of the longest to the shortest edge of each triangle: long thin ones are red.",
     ),
     (
         "Overlay/Longest edge / h̄",
-        "Shows the longest edge of each triangle by h̄ at its middle: red where it is longer, blue where it is shorter.",
+        "Shows the ratio of the longest edge of each triangle to h̄ at its middle: red above 1, blue below 1.",
     ),
     (
         "Overlay/Time step",

@@ -171,12 +171,12 @@ fn help_of(measure: QualityMeasure) -> &'static str {
              click goes to the worst."
         }
         QualityMeasure::EdgeRatio => {
-            "The longest edge by the shortest, at most: the aspect ratio. Below are the triangles by theirs, in red from 3 \
-             on. A click goes to the worst."
+            "The largest ratio of the longest to the shortest edge of a triangle: the aspect ratio. Below are the triangles \
+             by their ratio, in red from 3 on. A click goes to the worst."
         }
         QualityMeasure::TargetRatio => {
-            "The longest edge of a triangle by h̄ at its middle, at most. Below are the triangles by theirs, in red where \
-             they are longer than h̄. A click goes to the worst."
+            "The largest ratio of the longest edge of a triangle to h̄ at its middle. Below are the triangles by their ratio, \
+             in red above 1. A click goes to the worst."
         }
         QualityMeasure::TimeStep => {
             "The largest time step of a solver for a wave of 1 m with this Courant number along every edge. Below are the \

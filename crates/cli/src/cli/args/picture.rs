@@ -51,8 +51,8 @@ pub struct PictureArguments {
     /// none [default: only an arrow to the north over the map, in the plane of a projection]
     ///
     /// The legend has the diameter and the number of triangles of each level. Axes are longitudes and
-    /// latitudes where the document lies on the Earth, and x and y elsewhere. The picture has the size that
-    /// is asked for, with all this in it, and nothing of it covers the map.
+    /// latitudes where the document lies on the Earth, and x and y elsewhere. The size of the
+    /// picture includes all of this, and nothing covers the map.
     #[arg(long, value_name = "LIST")]
     pub furniture: Option<String>,
 }

@@ -31,9 +31,9 @@ pub enum FieldOverlay {
     SmallestAngle,
     /// The largest angle of each triangle.
     LargestAngle,
-    /// The longest edge of each triangle by its shortest.
+    /// The ratio of the longest to the shortest edge of each triangle.
     EdgeRatio,
-    /// The longest edge of each triangle by h̄.
+    /// The ratio of the longest edge of each triangle to h̄.
     TargetRatio,
     /// The largest time step of each triangle.
     TimeStep,
@@ -111,7 +111,7 @@ impl FieldOverlay {
             Self::SmallestAngle => "Overlay smallest angle",
             Self::LargestAngle => "Overlay largest angle",
             Self::EdgeRatio => "Overlay edge ratio",
-            Self::TargetRatio => "Overlay longest edge by h̄",
+            Self::TargetRatio => "Overlay longest edge / h̄",
             Self::TimeStep => "Overlay time step",
         }
     }
