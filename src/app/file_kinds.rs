@@ -137,6 +137,12 @@ pub static EXPORT_MESH: FileKind = FileKind {
     title: "Export mesh",
     act: FileAct::Export,
     endings: || ExportFormat::endings().collect(),
+    formats: || {
+        let chosen_by_ending =
+            |format: &ExportFormat| ExportFormat::from_ending(format.ending()) == Some(*format);
+        let formats = ExportFormat::all().filter(chosen_by_ending);
+        formats.map(|format| (format.ending(), format.purpose())).collect()
+    },
     contents: "Meshes and pictures",
     folder: "exports",
     command_after_browsing: |path| {

@@ -7,34 +7,26 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::host::asset;
+use super::mesh_export::MeshExport;
 use meshbrush_kit::kit::Keymap;
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, cancelled, exported, listed};
 use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
+use meshbrush_kit::kit::export_set::ExportSet;
 use meshbrush_kit::kit::session::Session;
 
 use meshbrush_core::document::{
     Document, Example, ExampleData, ExampleMaking, Recording, SeaChart, Settings,
 };
-use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
-use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{Layer, NodeDepths};
-use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::raster::Raster;
-use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::png::{Behind, decode};
 use meshbrush_io::io::project::Project;
 use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
-use meshbrush_io::io::{
-    self, DEPTH, MeshData, MeshSource, NodeValues, Provenance, SURFACE, ThirdCoordinate, recording,
-};
-use meshbrush_kit::kit::view::{Space, View};
+use meshbrush_io::io::{self, recording};
+use meshbrush_kit::kit::view::View;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Extract, Fingerprint, MeshView};
 use meshbrush_mesh::text::{Bytes, Grouped};
 use meshbrush_render::render::export::ExportFormat;
-use meshbrush_render::render::look::Look;
-use meshbrush_render::render::space_look::SpaceLook;
-use meshbrush_render::scene::NodeHeights;
 use meshbrush_ui::widgets::format;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
@@ -141,10 +133,13 @@ pub fn open_example_in_slices(background: &mut Background, example: Example) {
 pub fn open_recipe(background: &mut Background, path: &Path) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match recipe::open(&file, meter) {
-        Ok(OpenedRecipe { document, notes }) => {
+        Ok(OpenedRecipe { document, mut notes, outputs }) => {
+            notes.extend(ExportSet::of_recipe(outputs.clone()).unheard_keys());
             let opened = Opened { document: Arc::new(document), home: None };
+            let exports = Command::from(FileCommand::SetExports(outputs));
             let notes = (!notes.is_empty()).then(|| Command::from(ShellCommand::Tell(notes.join(" "))));
-            let commands = [Command::from(FileCommand::Show(opened))].into_iter().chain(notes).collect();
+            let commands =
+                [Command::from(FileCommand::Show(opened)), exports].into_iter().chain(notes).collect();
             Outcome::Read { path: file, commands }
         }
         Err(error) => Outcome::not_read(error),
@@ -195,90 +190,20 @@ pub fn export(
     if let Some(problem) = format.files(path).iter().find_map(blocked) {
         return Err(problem);
     }
-    let (mesh, domain) = (session.follower().shared_mesh(), session.follower().domain().clone());
-    let (field, settings) = (session.follower().field().clone(), session.follower().settings().clone());
-    let (paint, rule) = (session.document().paint().clone(), settings.rule);
-    let surface = session.follower().surface().cloned();
-    let look = view.picture_of(session.document().settings());
-    let is_picture = matches!(format, ExportFormat::Png | ExportFormat::Svg);
-    let space = is_picture.then_some(view.space).filter(|space| space.is_on);
-    let file = path.to_owned();
-    background.start(Aim::Export, path, move |meter| {
-        let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
-            let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
-            let target_diameter = if format.has_targets() {
-                field.targets_at_nodes(rule, &paint, &extract, || meter.check())?
-            } else {
-                Vec::new()
-            };
-            let in_space = |space| look_in_space(&space, surface.as_deref(), &settings.layers, &extract);
-            let look = Look { space: space.and_then(in_space), ..look };
-            let boundary = &MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
-            let parts = &extract.part_numbers();
-            let quantities = match format.wants_node_data() {
-                true => values_at_nodes(&settings.layers, surface.as_deref(), extract.view())?,
-                false => Vec::new(),
-            };
-            let (target_diameter, quantities) = (&target_diameter, &quantities[..]);
-            let heights = quantities.iter().find(|values| values.name == SURFACE).map(|it| &*it.values);
-            // A model in space has lengths along all axes.
-            let is_model = format.third_coordinate() == ThirdCoordinate::Model && heights.is_some();
-            let provenance = &provenance_of(&settings, mesh.fingerprint(), is_model);
-            let data = MeshData { target_diameter, quantities, heights, boundary, parts, provenance };
-            let nodes = settings.domain.nodes_in(&Coordinates::Geographic, &extract).filter(|_| !is_model);
-            let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
-            let placed = placed.as_ref().unwrap_or(&extract);
-            let files = format.write(&file, &mesh, placed, &data, &look, meter)?;
-            Ok((files, extract.triangles().len()))
-        };
-        match write() {
-            Ok((files, triangles)) => {
-                let triangles = format::count(triangles as u64);
-                Outcome::Exported(format!("{triangles} triangles written to {}.", listed(&files)))
-            }
-            Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
-            Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
+    let (mesh, file) = (MeshExport::of(session, view, format), path.to_owned());
+    background.start(Aim::Export, path, move |meter| match mesh.write(&file, meter) {
+        Ok((files, triangles)) => {
+            let triangles = format::count(triangles as u64);
+            Outcome::Exported(format!("{triangles} triangles written to {}.", listed(&files)))
         }
+        Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
+        Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
     });
     Ok(())
 }
 
-/// Returns the origin of a mesh, with its coordinates: those of the plane in models.
-fn provenance_of(settings: &Settings, fingerprint: Fingerprint, is_model: bool) -> Provenance {
-    let source = MeshSource::Document(&settings.name);
-    let provenance = Provenance::new(source, fingerprint, "x, y").with_unit(settings.unit);
-    match settings.domain.projection {
-        Some(plane) if is_model => provenance.in_plane(&plane),
-        plane => provenance.in_coordinates(&Coordinates::Geographic, plane),
-    }
-}
-
-/// Returns how a picture of a mesh looks in space; `None` where no layer has heights.
-fn look_in_space(
-    space: &Space,
-    surface: Option<&SurfaceRule>,
-    layers: &[Layer],
-    extract: &Extract,
-) -> Option<SpaceLook> {
-    let heights = HeightSource::new(surface, layers)?.at_nodes(extract.lattice(), extract.nodes());
-    Some(space.picture(NodeHeights::new(&heights, &[])?, extract.lattice()))
-}
-
-/// Returns the depths and the heights of surfaces at the nodes of a mesh, where layers have them.
-fn values_at_nodes(
-    layers: &[Layer],
-    surface: Option<&SurfaceRule>,
-    mesh: MeshView,
-) -> std::io::Result<Vec<NodeValues>> {
-    let depths = NodeDepths::of(layers, mesh).transpose().map_err(std::io::Error::other)?;
-    let depths = depths.map(|depths| (DEPTH, depths.depths));
-    let heights = surface.map(|rule| (SURFACE, rule.samples().filled_heights(mesh)));
-    let values = |(name, values): (&str, Vec<f64>)| NodeValues { name: name.into(), values };
-    Ok(depths.into_iter().chain(heights).map(values).collect())
-}
-
 /// Returns the document as a recipe at a path, which gets its ending if it has none.
-pub fn recipe_of(session: &Session, path: &Path) -> RecipeFiles {
+pub fn recipe_of(session: &Session, exports: &ExportSet, path: &Path) -> RecipeFiles {
     let has_ending = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(recipe::ENDING));
     let path = if has_ending {
         path.to_owned()
@@ -287,7 +212,8 @@ pub fn recipe_of(session: &Session, path: &Path) -> RecipeFiles {
         name.push(format!(".{}", recipe::ENDING));
         name.into()
     };
-    RecipeFiles::new(&Project::of(session.document()), &path)
+    let outputs = exports.for_recipe_in(path.parent().unwrap_or(Path::new("")));
+    RecipeFiles::with_outputs(&Project::of(session.document()), &path, outputs)
 }
 
 /// Does the edits since the document was opened again, and writes each with the fingerprint of the mesh
@@ -321,8 +247,8 @@ pub fn export_test(session: &mut Session, background: &mut Background, path: &Pa
 }
 
 /// Writes the document as a recipe, with the files that it names beside it.
-pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) {
-    let (recipe, file) = (recipe_of(session, path), path.to_owned());
+pub fn save_recipe(session: &Session, exports: &ExportSet, background: &mut Background, path: &Path) {
+    let (recipe, file) = (recipe_of(session, exports, path), path.to_owned());
     background.start(Aim::Export, path, move |meter| match recipe.write(meter) {
         Ok(()) => {
             let written: Vec<PathBuf> = recipe.paths().map(Path::to_owned).collect();

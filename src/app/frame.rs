@@ -276,8 +276,13 @@ impl App {
     fn draw_dialogs(&mut self, ctx: &Context, commands: &mut Vec<Command>) {
         if self.dialogs.asks_for_file() {
             let reads: Vec<_> = self.background.rows(true).into_iter().filter(|row| row.reads).collect();
+            let format = self.dialogs.export_format();
+            if let Some(format) = format {
+                self.export_figures.follow(&self.session, &self.view, format, &self.jobs);
+            }
             let facts = FileFacts {
                 triangles: self.session.triangle_count(),
+                figures: format.and_then(|format| self.export_figures.of(&self.session, format)),
                 settings: self.session.document().settings(),
                 picture: self.view.picture,
                 reads: &reads,

@@ -8,8 +8,12 @@ use eframe::{Storage, get_value, set_value};
 use crate::app::features::statistics::Statistics;
 use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::dock::Dock;
+use meshbrush_kit::kit::picture_choices::{KeptPictures, PictureChoices};
 use meshbrush_kit::kit::presentation::Presentation;
 use meshbrush_kit::kit::project::ProjectFile;
+use meshbrush_kit::kit::tools::{
+    BrushPreset, KeptBrush, KeptPreset, PenResponse, Tools, kept_pen, pen_of_kept,
+};
 use meshbrush_kit::kit::view::View;
 use meshbrush_kit::kit::{Features, Tab};
 
@@ -19,10 +23,59 @@ const COORDINATES_KEY: &str = "coordinates";
 const TAB_KEY: &str = "tab";
 /// Name under which it keeps the Courant number of time steps.
 const COURANT_KEY: &str = "courant number";
+/// Name under which it keeps the brush.
+const BRUSH_KEY: &str = "brush";
+/// Name under which it keeps what the pressure of a pen changes.
+const PEN_KEY: &str = "pen";
+/// Name under which it keeps the presets of brushes.
+const PRESETS_KEY: &str = "brush presets";
+/// Name under which it keeps the choices for exported pictures.
+const PICTURES_KEY: &str = "exported pictures";
 /// Name under which it keeps the recent files.
 const RECENT_KEY: &str = "recent files";
 /// Name under which it keeps the zoom factor before the presentation, where the run ends with one.
 const ZOOM_KEY: &str = "zoom factor before the presentation";
+
+/// The brush, the pen and the presets as they are in the storage.
+pub struct StoredBrush {
+    brush: KeptBrush,
+    pen: PenResponse,
+    presets: Vec<BrushPreset>,
+}
+
+impl StoredBrush {
+    /// Returns what is in the storage once that of these tools is.
+    pub fn of(tools: &Tools) -> Self {
+        Self { brush: tools.kept_brush(), pen: tools.pen.response, presets: tools.presets().to_vec() }
+    }
+
+    /// Returns whether the tools have changed since.
+    pub fn differs_from(&self, tools: &Tools) -> bool {
+        self.brush != tools.kept_brush() || self.pen != tools.pen.response || self.presets != tools.presets()
+    }
+}
+
+/// Takes the brush, the response to a pen and the presets of the last run.
+pub fn load_brush(tools: &mut Tools, storage: &dyn Storage) {
+    if let Some(kept) = get_value(storage, BRUSH_KEY) {
+        tools.take_brush(kept);
+    }
+    if let Some(pen) = get_value(storage, PEN_KEY).and_then(pen_of_kept) {
+        tools.pen.response = pen;
+    }
+    let kept: Option<Vec<KeptPreset>> = get_value(storage, PRESETS_KEY);
+    if let Some(kept) = kept {
+        tools.take_presets(kept.into_iter().filter_map(BrushPreset::of_kept).collect());
+    }
+}
+
+/// Keeps them for the next run.
+pub fn store_brush(tools: &Tools, storage: &mut dyn Storage) {
+    set_value(storage, BRUSH_KEY, &tools.kept_brush());
+    set_value(storage, PEN_KEY, &kept_pen(&tools.pen.response));
+    let presets: Vec<KeptPreset> = tools.presets().iter().map(BrushPreset::kept).collect();
+    set_value(storage, PRESETS_KEY, &presets);
+}
 
 /// Shows the tab of the last run.
 pub fn load_tab(dock: &mut Dock, storage: &dyn Storage) {
@@ -60,6 +113,19 @@ pub fn load_coordinates(view: &mut View, storage: &dyn Storage) {
 /// Keeps the coordinates of places for the next run.
 pub fn store_coordinates(view: &View, storage: &mut dyn Storage) {
     set_value(storage, COORDINATES_KEY, &view.coordinates.name());
+}
+
+/// Takes the choices for exported pictures of the last run.
+pub fn load_pictures(view: &mut View, storage: &dyn Storage) {
+    let kept: Option<KeptPictures> = get_value(storage, PICTURES_KEY);
+    if let Some(choices) = kept.and_then(PictureChoices::of_kept) {
+        view.picture = choices;
+    }
+}
+
+/// Keeps them for the next run.
+pub fn store_pictures(view: &View, storage: &mut dyn Storage) {
+    set_value(storage, PICTURES_KEY, &view.picture.kept());
 }
 
 /// Loads the list of recent files.

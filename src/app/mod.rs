@@ -22,6 +22,7 @@ mod kept;
 mod kept_keys;
 mod keys;
 mod link;
+mod mesh_export;
 mod next_document;
 mod panels;
 mod parts;
@@ -44,12 +45,13 @@ use eframe::egui_wgpu;
 use canvas::{Canvas, CanvasGpu};
 #[cfg(not(target_family = "wasm"))]
 use desktop as host;
-use dialogs::Dialogs;
+use dialogs::{Dialogs, ExportMeasurer};
 use features::ROWS;
 use frame_log::FrameLog;
 use host::journal;
 pub use host::run;
 use journal::JournalKeeper;
+use kept::StoredBrush;
 use meshbrush_kit::kit::background::Background;
 use meshbrush_kit::kit::clock::{Duration, Instant};
 use meshbrush_kit::kit::command::HelpTopic;
@@ -59,7 +61,7 @@ use meshbrush_kit::kit::platform::IS_PAGE;
 use meshbrush_kit::kit::project::ProjectFile;
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::threads::Threads;
-use meshbrush_kit::kit::tools::{KeptBrush, Tools};
+use meshbrush_kit::kit::tools::Tools;
 use meshbrush_kit::kit::view::View;
 use meshbrush_kit::kit::{Features, Keymap, all_tools};
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
@@ -74,8 +76,6 @@ use meshbrush_ui::{theme, widgets};
 const LAST_WAIT: Duration = Duration::from_secs(5);
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
-/// Key of the brush in the window's own storage.
-const BRUSH_KEY: &str = "brush";
 /// Key of the number of threads in the window's own storage, where they are limited.
 const THREADS_KEY: &str = "threads";
 /// The title of the report, for texts that a person reads.
@@ -95,7 +95,9 @@ pub struct App {
     project: ProjectFile,
     tools: Tools,
     /// The brush as the window's own storage has it.
-    stored_brush: Option<KeptBrush>,
+    stored_brush: Option<StoredBrush>,
+    /// What the files of an export will have in them.
+    export_figures: ExportMeasurer,
     view: View,
     canvas: Canvas,
     features: Features,
@@ -194,6 +196,7 @@ impl App {
             jobs,
             journal: None,
             stored_brush: None,
+            export_figures: ExportMeasurer::default(),
             commands: Vec::new(),
             starts_with_file: false,
             leaves_mesh: false,
@@ -210,6 +213,7 @@ impl App {
             self.dialogs.load(storage);
             kept::load_tab(&mut self.view.dock, storage);
             kept::load_coordinates(&mut self.view, storage);
+            kept::load_pictures(&mut self.view, storage);
             kept::load_courant(&mut self.features, storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
@@ -228,18 +232,16 @@ impl App {
 
     /// Takes the brush of the last run.
     fn load_brush(&mut self, storage: &dyn eframe::Storage) {
-        if let Some(kept) = eframe::get_value(storage, BRUSH_KEY) {
-            self.tools.take_brush(kept);
-        }
-        self.stored_brush = Some(self.tools.kept_brush());
+        kept::load_brush(&mut self.tools, storage);
+        self.stored_brush = Some(StoredBrush::of(&self.tools));
     }
 
     /// Keeps the brush once it has changed, also if the program is killed: what else is in the storage is
     /// written at times, and at the end.
     fn store_brush(&mut self, storage: &mut dyn eframe::Storage) {
-        let brush = self.tools.kept_brush();
-        if self.stored_brush.replace(brush) != Some(brush) {
-            eframe::set_value(storage, BRUSH_KEY, &brush);
+        if self.stored_brush.as_ref().is_none_or(|stored| stored.differs_from(&self.tools)) {
+            self.stored_brush = Some(StoredBrush::of(&self.tools));
+            kept::store_brush(&self.tools, storage);
             storage.flush();
         }
     }
@@ -295,6 +297,7 @@ impl eframe::App for App {
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
         kept::store_tab(&self.view.dock, storage);
         kept::store_coordinates(&self.view, storage);
+        kept::store_pictures(&self.view, storage);
         kept::store_courant(&self.features, storage);
         kept::store_presentation(self.view.presentation, storage);
         eframe::set_value(storage, THREADS_KEY, &self.threads.limit());

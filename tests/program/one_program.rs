@@ -595,7 +595,7 @@ fn an_opened_recipe_has_limits_and_its_notes_say_what_the_window_leaves_out() {
          [[layer]]\nkind = \"raster\"\nfile = \"a.asc\"\nvisible = false\nas = \"diameter\"\n\
          [[output]]\nfile = \"a.vtu\"\n",
     );
-    let OpenedRecipe { mut document, notes } =
+    let OpenedRecipe { mut document, notes, outputs: _ } =
         open(&folder.0.join("strait.toml"), &Meter::default()).unwrap();
     let Settings { name, transfer, layers, domain, .. } = document.settings();
     assert!(name == "strait" && layers.len() == 2 && !layers[1].visible);

@@ -64,7 +64,8 @@ pub fn show(
         | FieldOverlay::LargestAngle
         | FieldOverlay::EdgeRatio
         | FieldOverlay::TargetRatio
-        | FieldOverlay::TimeStep => measure_of(state.view.overlay)
+        | FieldOverlay::TimeStep
+        | FieldOverlay::Valence => measure_of(state.view.overlay)
             .map(|measure| quality_legend::show(ui, inner, state, palette, measure)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None if state.view.aids.levels => {

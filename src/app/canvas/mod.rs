@@ -376,6 +376,9 @@ impl Canvas {
             marks::paint_point(&painter, screen_from_world(readout.point));
         }
         self.paint_marks(state, &over);
+        if let Some(mirror) = state.stroke_mirror() {
+            marks::paint_mirror_lines(&painter, screen_from_world, &mirror);
+        }
         if let Some(pointer) = pointer {
             let radius = state.tools.radius as f32 * camera.px_per_world() as f32 / px_per_point;
             self.draw_brush(ui, state, &over, pointer, radius);
@@ -414,10 +417,8 @@ impl Canvas {
         if self.is_picking(ui.ctx(), tools) {
             return marks::paint_eyedropper(over.painter, pointer);
         }
-        if tools.paints() {
-            let mirror = tools.mirror(state.session.document().settings().domain.bounds);
-            let pointer = state.pointer.unwrap_or_default();
-            marks::paint_mirror(over.painter, over.screen_from_world, &mirror, pointer, radius);
+        if let Some((mirror, point)) = state.stroke_mirror().zip(state.pointer) {
+            marks::paint_mirror_images(over.painter, over.screen_from_world, &mirror, point, radius);
         }
         if let Some(center) = self.gesture.as_ref().and_then(|gesture| gesture.ring_center()) {
             return marks::paint_brush_ring(over.painter, center, tools, radius);

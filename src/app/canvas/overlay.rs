@@ -67,7 +67,8 @@ impl OverlaySource {
             | FieldOverlay::LargestAngle
             | FieldOverlay::EdgeRatio
             | FieldOverlay::TargetRatio
-            | FieldOverlay::TimeStep => Self::Comparison,
+            | FieldOverlay::TimeStep
+            | FieldOverlay::Valence => Self::Comparison,
         }
     }
 }
@@ -214,7 +215,8 @@ fn colors_of(
             | FieldOverlay::LargestAngle
             | FieldOverlay::EdgeRatio
             | FieldOverlay::TargetRatio
-            | FieldOverlay::TimeStep => quality.colors(&*extract()?, &state, goes_on),
+            | FieldOverlay::TimeStep
+            | FieldOverlay::Valence => quality.colors(&*extract()?, &state, goes_on),
             FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
             FieldOverlay::Layer => {
                 sampled().map(|(_, layers)| layers.into_iter().map(|layer| palette.layer(layer)).collect())

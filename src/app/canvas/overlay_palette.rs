@@ -33,6 +33,9 @@ const GROUND: [Opaque; 5] = [
 pub const SMALLEST_ANGLES: [f32; 2] = [45.0, 15.0];
 pub const LARGEST_ANGLES: [f32; 2] = [90.0, 150.0];
 pub const EDGE_RATIOS: [f32; 2] = [1.5, 3.5];
+/// The triangles at a node with a neutral colour, as in a mesh before nodes are fitted to an outline, and
+/// with the strongest one, as solvers refuse more.
+pub const VALENCES: [f32; 2] = [8.0, 10.0];
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;
 
@@ -144,7 +147,8 @@ impl OverlayPalette {
             }
             QualityMeasure::SmallestAngle => SMALLEST_ANGLES,
             QualityMeasure::LargestAngle => LARGEST_ANGLES,
-            QualityMeasure::EdgeRatio | QualityMeasure::Valence => EDGE_RATIOS,
+            QualityMeasure::EdgeRatio => EDGE_RATIOS,
+            QualityMeasure::Valence => VALENCES,
         };
         self.warned((number - good) / (bad - good))
     }
@@ -217,6 +221,7 @@ mod tests {
                 ("a large angle", palette.quality(QualityMeasure::LargestAngle, 170.0)),
                 ("a long triangle", palette.quality(QualityMeasure::EdgeRatio, 4.0)),
                 ("an edge longer than h̄", palette.quality(QualityMeasure::TargetRatio, 2.0)),
+                ("many triangles at a node", palette.quality(QualityMeasure::Valence, 10.0)),
                 ("the least time step", palette.quality(QualityMeasure::TimeStep, 1.0)),
             ] {
                 assert!(contrast(color, neutral) > 3.0, "{what} {ground:?}: {}", contrast(color, neutral));
@@ -233,6 +238,7 @@ mod tests {
                 (QualityMeasure::EdgeRatio, 1.42),
                 (QualityMeasure::TargetRatio, 1.0),
                 (QualityMeasure::TimeStep, 16.0),
+                (QualityMeasure::Valence, 8.0),
             ];
             for (measure, number) in good {
                 assert_eq!(palette.quality(measure, number), neutral, "{measure:?}");

@@ -16,7 +16,7 @@ use super::overlay_palette::Opaque;
 
 /// Returns the measure that an overlay shows, if it shows one.
 pub(super) fn measure_of(kind: FieldOverlay) -> Option<QualityMeasure> {
-    QualityMeasure::OF_TRIANGLES.into_iter().find(|measure| FieldOverlay::of_measure(*measure) == Some(kind))
+    QualityMeasure::ALL.into_iter().find(|measure| FieldOverlay::of_measure(*measure) == kind)
 }
 
 /// What triangles are compared with.
@@ -64,7 +64,11 @@ impl QualityData {
             return Some(neutral(*size, palette));
         };
         let mut squares = LevelCache::default();
-        let number = |triangle: usize| measures.of(measure, triangle, &mut squares);
+        let at_corners = (measure == QualityMeasure::Valence).then(|| measures.most_at_corners());
+        let number = |triangle: usize| match &at_corners {
+            Some(counts) => Some(f64::from(counts[triangle])),
+            None => measures.of(measure, triangle, &mut squares),
+        };
         let numbers = numbers_by_pixel(mesh.view(), (*bounds, *size), goes_on, number)?;
         let color = |number: &f32| match number.is_nan() {
             true => palette.neutral(),

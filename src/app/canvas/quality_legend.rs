@@ -3,7 +3,9 @@
 use eframe::egui::{Rect, Ui, vec2};
 
 use super::legend::{ROW, WIDTH, below_scale, boxed, no_layer, scale};
-use super::overlay_palette::{EDGE_RATIOS, LARGEST_ANGLES, MOST_SLACK, OverlayPalette, SMALLEST_ANGLES};
+use super::overlay_palette::{
+    EDGE_RATIOS, LARGEST_ANGLES, MOST_SLACK, OverlayPalette, SMALLEST_ANGLES, VALENCES,
+};
 use crate::app::features::statistics::{NoTimeStep, Statistics};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_core::quality::QualityMeasure;
@@ -34,8 +36,9 @@ pub(super) fn show(
     let (title, ends, note) = match measure {
         QualityMeasure::SmallestAngle => ("Smallest angle", from_to(SMALLEST_ANGLES, "°"), String::new()),
         QualityMeasure::LargestAngle => ("Largest angle", from_to(LARGEST_ANGLES, "°"), String::new()),
-        QualityMeasure::EdgeRatio | QualityMeasure::Valence => {
-            ("Longest / shortest edge", from_to(EDGE_RATIOS, ""), String::new())
+        QualityMeasure::EdgeRatio => ("Longest / shortest edge", from_to(EDGE_RATIOS, ""), String::new()),
+        QualityMeasure::Valence => {
+            ("Triangles at a node", from_to(VALENCES, ""), "most of the three corners".into())
         }
         QualityMeasure::TargetRatio => {
             ("Longest edge / h̄", texts(["≤ 0.5", "1", "≥ 2"]), "finer, coarser than h̄".into())
@@ -61,7 +64,8 @@ fn number_of_cell(measure: QualityMeasure, cell: u16) -> f32 {
     match measure {
         QualityMeasure::SmallestAngle => between(SMALLEST_ANGLES),
         QualityMeasure::LargestAngle => between(LARGEST_ANGLES),
-        QualityMeasure::EdgeRatio | QualityMeasure::Valence => between(EDGE_RATIOS),
+        QualityMeasure::EdgeRatio => between(EDGE_RATIOS),
+        QualityMeasure::Valence => between(VALENCES),
         QualityMeasure::TargetRatio => (2.0 * share - 1.0).exp2(),
         QualityMeasure::TimeStep => (MOST_SLACK * share).exp2(),
     }

@@ -97,6 +97,10 @@ impl Canvas {
         };
         Self::paint_marks_below(state, &over);
         self.paint_marks(state, &over);
+        if let Some(mirror) = state.stroke_mirror() {
+            let bounds = state.session.document().settings().domain.bounds;
+            paint_mirror_lines(&over, &sight, &mirror, bounds);
+        }
         if let (Some(pointer), Some(world)) = (pointer, state.pointer)
             && state.tools.tool.in_space
         {
@@ -150,10 +154,7 @@ impl Canvas {
         if self.is_picking(ui.ctx(), tools) {
             return marks::paint_eyedropper(over.painter, pointer);
         }
-        if tools.paints() {
-            let bounds = state.session.document().settings().domain.bounds;
-            let mirror = tools.mirror(bounds);
-            paint_mirror_lines(over, sight, &mirror, bounds);
+        if let Some(mirror) = state.stroke_mirror() {
             for image in mirror.images(world).skip(1) {
                 paint_loop(over, sight, (image, tools.radius), [2.5, 1.0], 0.5);
             }

@@ -19,7 +19,6 @@ const MOST_RECENT_IN_MENU: usize = 5;
 /// Documents and files.
 pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::File;
-    let has_paths = !state.session.document().settings().paths.routes.is_empty();
     let mut items = vec![
         CatalogItem::new(File, "New…", Command::from(FileCommand::NewFromPage)).ctrl(Key::N),
         CatalogItem::new(File, "Open…", Command::from(FileCommand::Ask(&OPEN_ANY))).ctrl(Key::O),
@@ -63,17 +62,34 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             Command::from(FileCommand::Ask(&ADD_OUTLINE)),
         )
         .palette_only(),
+    ];
+    items.extend(exports(state));
+    items.extend(recent(state));
+    items.push(last());
+    items
+}
+
+/// What writes files.
+fn exports(state: &FrameState<'_>) -> [CatalogItem; 5] {
+    use Menu::File;
+    let has_paths = !state.session.document().settings().paths.routes.is_empty();
+    let files = state.project.exports.paths().len();
+    let again = match files {
+        0 | 1 => "Export again".to_owned(),
+        files => format!("Export {files} files again"),
+    };
+    [
         CatalogItem::new(File, "Export mesh…", Command::from(FileCommand::Ask(&EXPORT_MESH)))
             .ctrl(Key::E)
             .group(),
+        CatalogItem::new(File, again, Command::from(FileCommand::ExportAgain))
+            .id("export-again")
+            .enabled(files > 0),
         CatalogItem::new(File, "Picture options…", Command::from(ShellCommand::AskPicture)),
         CatalogItem::new(File, "Export path…", Command::from(FileCommand::Ask(&EXPORT_PATH)))
             .enabled(has_paths),
         CatalogItem::new(File, "Export as test…", Command::from(FileCommand::Ask(&EXPORT_TEST))),
-    ];
-    items.extend(recent(state));
-    items.push(last());
-    items
+    ]
 }
 
 /// Files that were opened or saved.

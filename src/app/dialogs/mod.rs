@@ -3,6 +3,7 @@
 
 mod add_data;
 mod endings;
+mod export_figures;
 mod file;
 mod folders;
 mod go_to;
@@ -20,6 +21,7 @@ use super::REPORT;
 use super::catalog::{PLACES, catalog, words_of};
 use super::host;
 use endings::LastEndings;
+pub use export_figures::ExportMeasurer;
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
@@ -28,6 +30,7 @@ use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand, ViewComman
 use meshbrush_kit::kit::document_id::DocumentId;
 use meshbrush_kit::kit::jobs::Jobs;
 use meshbrush_kit::kit::{CatalogItem, DataFile, DockPlace, FileAct, FileRequest, FrameState};
+use meshbrush_render::render::export::ExportFormat;
 use meshbrush_ui::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use system::{SystemAnswer, SystemQuestion};
 
@@ -96,6 +99,11 @@ impl Dialogs {
     /// Returns whether a file is being asked for.
     pub fn asks_for_file(&self) -> bool {
         self.file.is_some() || self.system.is_asking()
+    }
+
+    /// Returns the format of the mesh that is asked for a file for.
+    pub fn export_format(&self) -> Option<ExportFormat> {
+        self.file.as_ref()?.export_format()
     }
 
     /// Asks for files in the desktop's own dialog from now on, unless the environment says otherwise.

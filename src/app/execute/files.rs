@@ -18,6 +18,7 @@ use meshbrush_io::io::Meter;
 use meshbrush_kit::kit::EditRecorder as _;
 use meshbrush_kit::kit::background::{Aim, Finished, Outcome, WorkId, name_of};
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, Opened};
+use meshbrush_kit::kit::export_set::ExportSet;
 use meshbrush_kit::kit::home::{self, Home, Loss};
 use meshbrush_kit::kit::{FileRequest, look_at, raster_frame};
 
@@ -90,17 +91,19 @@ impl App {
                 self.project.save_over(path, &mut self.session, &mut self.background);
             }
             FileCommand::SaveRecipeAs(path) => self.save_recipe_as(path),
-            FileCommand::SaveRecipe(path) => files::save_recipe(&self.session, &mut self.background, &path),
+            FileCommand::SaveRecipe(path) => {
+                files::save_recipe(&self.session, &self.project.exports, &mut self.background, &path)
+            }
             FileCommand::ExportTestAs(path) => self.commands.extend(self.project.export_test_as(path)),
             FileCommand::ExportTest(path) => {
                 let started = files::export_test(&mut self.session, &mut self.background, &path);
                 self.fail_on(started);
             }
             FileCommand::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
-            FileCommand::Export(path) => {
-                let started = files::export(&self.session, &self.view, &mut self.background, &path);
-                self.fail_on(started);
-            }
+            FileCommand::Export(path) => self.export(&path),
+            FileCommand::SetExports(outputs) => self.project.exports = ExportSet::of_recipe(outputs),
+            FileCommand::ExportAgain => self.commands.extend(self.project.export_again()),
+            FileCommand::ExportAll => self.export_all(),
             FileCommand::CancelWork(id) => self.cancel_work(id),
             FileCommand::Restore => self.restore(),
             FileCommand::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
@@ -115,6 +118,20 @@ impl App {
                 self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
             }
         }
+    }
+
+    /// Writes the mesh to a file, which joins those to write again.
+    fn export(&mut self, path: &Path) {
+        let started = files::export(&self.session, &self.view, &mut self.background, path);
+        if started.is_ok() {
+            self.project.exports.note(path);
+        }
+        self.fail_on(started);
+    }
+
+    fn export_all(&mut self) {
+        let paths: Vec<PathBuf> = self.project.exports.paths().map(Path::to_owned).collect();
+        self.commands.extend(paths.into_iter().map(|path| Command::from(FileCommand::Export(path))));
     }
 
     /// Copies a link to the page of the program with the document in it.
@@ -156,7 +173,7 @@ impl App {
     }
 
     fn save_recipe_as(&mut self, path: PathBuf) {
-        let recipe = files::recipe_of(&self.session, &path);
+        let recipe = files::recipe_of(&self.session, &self.project.exports, &path);
         self.commands.extend(self.project.save_recipe_as(path, &recipe));
     }
 

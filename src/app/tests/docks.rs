@@ -18,6 +18,7 @@ use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::features::stepping::StepCommand;
 use crate::app::kept::load_tab;
 use crate::app::panels;
+use glam::dvec2;
 use meshbrush_kit::kit::command::{Command, ShellCommand};
 use meshbrush_kit::kit::dock::Dock;
 use meshbrush_kit::kit::{Menu, Tab, all_tools};
@@ -186,7 +187,7 @@ fn options_without_room_are_in_a_popup() {
     window.run();
     assert!(window.state().tools().mirrored[0]);
     window.get_by_role_and_label(Role::CheckBox, "Mirror y");
-    super::click(&mut window, super::FREE, Modifiers::NONE);
+    super::click(&mut window, dvec2(0.05, 0.05), Modifiers::NONE);
     assert!(window.query_by_role_and_label(Role::CheckBox, "Mirror y").is_none());
     assert_eq!(super::entries(&window), 0);
 }

@@ -184,13 +184,15 @@ fn an_export_proposes_a_name_and_says_what_it_writes() {
     assert_eq!(text(&window), "Radar threats.vtu");
     let count = format::count(window.state().session().triangle_count() as u64);
     let says = |window: &Window, text: &str| window.query_by_label_contains(text).is_some();
-    assert!(says(&window, &format!("{count} triangles, about")));
+    wait_until(&mut window, |window| {
+        says(window, &format!("{count} triangles, ")) && says(window, " nodes, ")
+    });
     window.get_by_role_and_label(Role::ComboBox, "Format").click();
     window.run();
     window.get_by_label_contains(".node").click();
     window.run();
     assert_eq!(text(&window), "Radar threats.node");
-    assert!(says(&window, "in 4 files"));
+    wait_until(&mut window, |window| says(window, "in 4 files"));
     type_text(&mut window, "x"); // replaces nothing: the cursor is at the end
     key(&mut window, Modifiers::COMMAND, Key::A);
     type_text(&mut window, &format!("{}/", folder.display()));
@@ -215,6 +217,38 @@ fn an_export_proposes_a_name_and_says_what_it_writes() {
     cancel.click();
     window.run();
     assert_eq!(text(&window), "mesh.node");
+}
+
+#[test]
+fn an_export_says_its_size_on_disk_and_what_may_be_missed() {
+    let folder = folder("figures");
+    let mut window = window();
+    let says = |window: &Window, text: &str| window.query_by_label_contains(text).is_some();
+    for name in ["mesh.vtu", "mesh.14", "mesh.node", "mesh.nc"] {
+        key(&mut window, Modifiers::COMMAND, Key::E);
+        key(&mut window, Modifiers::COMMAND, Key::A);
+        type_text(&mut window, &format!("{}/{name}", folder.display()));
+        wait_until(&mut window, |window| says(window, " nodes, "));
+        let figures = window.get_by_label_contains(" nodes, ");
+        let figures = figures.accesskit_node().value().unwrap_or_default();
+        let for_solver = name == "mesh.14";
+        assert!(!says(&window, "No part of the boundary is open"), "the sides of a rectangle are: {name}");
+        assert_eq!(says(&window, "a depth of 0 everywhere"), for_solver, "{name}");
+        key(&mut window, Modifiers::NONE, Key::Enter);
+        wait_for_notice(&mut window);
+        send(&mut window, Command::from(ShellCommand::Escape));
+        let path = folder.join(name);
+        let files = ExportFormat::from_path(&path).unwrap().files(&path);
+        let bytes: u64 = files.iter().map(|file| fs::metadata(file).unwrap().len()).sum();
+        assert!(
+            figures.contains(&format!(", {}", format::file_size(bytes))),
+            "{name}: {figures} for {bytes}"
+        );
+    }
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, "mesh.png");
+    assert!(says(&window, "no nodes and triangles"));
 }
 
 #[test]

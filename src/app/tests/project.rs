@@ -404,6 +404,21 @@ fn the_brush_is_kept_before_the_end_and_has_its_share_of_every_domain() {
         assert_eq!((tools.hardness, tools.erase_strength), (0.9, 0.3));
         assert!((share(&next) / share(&first) - 1.0).abs() < 1e-12);
     }
+    let tools = &mut first.state_mut().tools;
+    tools.hardness = 0.77;
+    assert!(tools.chosen_preset().is_none() && tools.keep_preset());
+    tools.rename_preset(3, "Surf zone");
+    tools.remove_preset(0);
+    first.state_mut().store_brush(&mut stored);
+    next.state_mut().load_brush(&stored);
+    let tools = &mut next.state_mut().tools;
+    let names: Vec<&str> = tools.presets().iter().map(|preset| &*preset.name).collect();
+    assert_eq!(names, ["Hard edge", "Fine tip", "Surf zone"], "presets are kept, too");
+    tools.use_preset(1);
+    assert_eq!((tools.hardness, tools.chosen_preset()), (0.6, Some(1)));
+    tools.use_preset(2);
+    assert_eq!((tools.hardness, tools.chosen_preset()), (0.77, Some(2)));
+    tools.hardness = 0.9;
     eframe::Storage::set_string(&mut stored, "brush", "(-3.0,0.5,0.5,0.5,0.5,0.5)".into());
     next.state_mut().load_brush(&stored);
     assert_eq!(next.state().tools().hardness, 0.9, "no slider has such a radius");

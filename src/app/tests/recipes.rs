@@ -75,12 +75,56 @@ fn a_recipe_is_opened_by_name_and_edits_are_asked_about() {
 }
 
 #[test]
-fn what_the_window_leaves_out_of_a_recipe_is_told() {
-    let file = recipe_in("notes", &format!("{STRAIT}[[output]]\nfile = \"strait.vtu\"\n"));
+fn the_files_of_a_recipe_are_written_together_and_saved_with_it() {
+    let outputs = "[[output]]\nfile = \"strait.vtu\"\n\n[[output]]\nfile = \"strait.msh\"\nbinary = true\n";
+    let file = recipe_in("outputs", &format!("{STRAIT}{outputs}"));
+    let folder = file.parent().unwrap();
+    for name in ["strait.vtu", "strait.msh", "again.toml"] {
+        _ = fs::remove_file(folder.join(name));
+    }
+    let mut window = window();
+    send(&mut window, Command::from(FileCommand::Open(file.clone())));
+    wait_until(&mut window, is_open);
+    assert!(notice(&window).contains("keys for strait.msh"), "{}", notice(&window));
+    let written = |window: &mut Window| {
+        send(window, Command::from(FileCommand::ExportAgain));
+        wait_until(window, |window| window.state().background.rows(true).is_empty());
+        window.run();
+    };
+    written(&mut window);
+    let bytes = |name: &str| fs::read(folder.join(name)).unwrap();
+    let first = bytes("strait.vtu");
+    assert!(!first.is_empty() && !bytes("strait.msh").is_empty());
+    send(&mut window, Command::from(FileCommand::Export(folder.join("strait.2dm"))));
+    wait_for_notice(&mut window);
+    fs::write(folder.join("strait.vtu"), "old").unwrap();
+    written(&mut window);
+    assert_eq!(bytes("strait.vtu"), first, "what this window wrote is replaced without a question");
+
+    send(&mut window, Command::from(FileCommand::SaveRecipe(folder.join("again.toml"))));
+    wait_until(&mut window, |window| window.state().background.rows(true).is_empty());
+    let saved = String::from_utf8(bytes("again.toml")).unwrap();
+    let at = saved.find("[[output]]").unwrap();
+    let expected = "[[output]]\nfile = \"strait.vtu\"\n\n[[output]]\nfile = \"strait.msh\"\nbinary = true\n\n[[output]]\nfile = \"strait.2dm\"\n";
+    assert_eq!(saved[at..], *expected);
+    send(&mut window, Command::from(FileCommand::New));
+    assert_eq!(window.state().project.exports.paths().len(), 0, "another document has its own");
+}
+
+#[test]
+fn files_of_a_recipe_that_exist_are_replaced_after_a_question_only() {
+    let file = recipe_in("asked", &format!("{STRAIT}[[output]]\nfile = \"asked.vtu\"\n"));
+    let target = file.with_file_name("asked.vtu");
+    fs::write(&target, "of somebody else").unwrap();
     let mut window = window();
     send(&mut window, Command::from(FileCommand::Open(file)));
     wait_until(&mut window, is_open);
-    assert!(notice(&window).contains("The window writes no files of [[output]]"), "{}", notice(&window));
+    send(&mut window, Command::from(FileCommand::ExportAgain));
+    assert_eq!(fs::read_to_string(&target).unwrap(), "of somebody else");
+    window.get_by_role_and_label(Role::Button, "Replace").click();
+    window.run();
+    wait_until(&mut window, |window| window.state().background.rows(true).is_empty());
+    assert!(fs::metadata(&target).unwrap().len() > 1000);
 }
 
 #[test]

@@ -118,6 +118,12 @@ fn an_ordinary_edit_is_applied_at_once_and_says_what_it_did() {
     send(&mut window, Command::from(EditCommand::EndGesture));
     set(&mut window, Setting::Gradation(Some(0.3)));
     assert!(changes(&window)[0] == "–" && changes(&window)[1].starts_with('+'), "{:?}", changes(&window));
+    let said = changes(&window)[1].clone();
+    let (by_gradation, _time) = said.split_once(" triangles").unwrap();
+    let before = triangles(&window);
+    stroke(&mut window, FREE, FREE);
+    assert!(triangles(&window) > before);
+    assert_eq!(changes(&window)[1], format!("{by_gradation} triangles"), "a later stroke does not count");
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod drawing;
 mod edits;
 mod examples;
 mod field_price;
+mod fill;
 mod follower;
 mod following;
 mod history;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::earth::Ground;
 use crate::layers::{EdgeTimes, LevelCache, PaintLayers, SizeField};
-use crate::mesh::{MeshView, TriangleId};
+use crate::mesh::{MeshView, NodeId, TriangleId};
 use crate::text::LengthUnit;
 
 /// What is measured of a mesh.
@@ -103,6 +103,16 @@ impl<'a> TriangleMeasures<'a> {
             QualityMeasure::TimeStep => self.time_step(triangle, self.edges(triangle)),
             QualityMeasure::Valence => None,
         }
+    }
+
+    /// Returns the greatest number of triangles at a corner of each triangle.
+    pub fn most_at_corners(&self) -> Vec<u32> {
+        let mut at_node = vec![0_u32; self.mesh.nodes().len()];
+        self.mesh.triangles().iter().flat_map(|triangle| triangle.vertices).for_each(|node| {
+            at_node[node.index()] += 1;
+        });
+        let most = |corners: [NodeId; 3]| corners.map(|node| at_node[node.index()]).into_iter().max();
+        self.mesh.triangles().iter().map(|triangle| most(triangle.vertices).unwrap_or(0)).collect()
     }
 
     /// Returns the least time step of all triangles, in seconds; `None` where none has one.

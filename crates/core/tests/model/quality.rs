@@ -159,6 +159,22 @@ fn every_number_is_that_of_the_triangles_with_their_nodes_on_the_outline() {
 }
 
 #[test]
+fn the_most_triangles_at_a_corner_are_those_that_share_it() {
+    let domain = Domain::rectangle(Rect::UNIT);
+    let built = formula_mesh(&domain, 0.25, BoundaryTreatment::Report, &Target::of(&domain).formula());
+    let extract = built.mesh.extract();
+    let ground = Ground::default();
+    let most = TriangleMeasures::new(extract.view(), &ground).most_at_corners();
+    let corners: Vec<[usize; 3]> = extract.cells().map(|cell| cell.corners).collect();
+    assert_eq!(most.len(), corners.len());
+    for (own, most) in corners.iter().zip(&most).step_by(7) {
+        let sharing = |node: &usize| corners.iter().filter(|other| other.contains(node)).count();
+        assert_eq!(own.iter().map(sharing).max(), Some(*most as usize));
+    }
+    assert!(most.contains(&8) && !most.contains(&9), "a mesh of right-angled triangles has 8 at most");
+}
+
+#[test]
 fn numbers_of_one_triangle_are_those_of_the_histogram() {
     let domain = Domain::rectangle(Rect::UNIT);
     let formula = Target::of(&domain).formula();

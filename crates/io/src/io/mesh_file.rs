@@ -139,6 +139,19 @@ impl MeshFormat {
         Ok(files)
     }
 
+    /// Returns how many bytes the files of a mesh have, all together, without writing one.
+    ///
+    /// # Errors
+    /// Fails when the format cannot hold the mesh, and when the work was cancelled.
+    pub fn exact_bytes(self, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<u64> {
+        let mut count = ByteCount(0);
+        let writers = std::iter::once(self.writer()).chain(self.spec.beside.iter().map(|(_, write)| *write));
+        for write in writers {
+            write(&mut meter.count(&mut count), mesh, data, meter)?;
+        }
+        Ok(count.0)
+    }
+
     /// Writes a mesh to a stream; `None` for a format of several files.
     ///
     /// # Errors
@@ -151,6 +164,20 @@ impl MeshFormat {
         meter: &Meter,
     ) -> Option<io::Result<()>> {
         self.spec.beside.is_empty().then(|| self.writer()(out, mesh, data, meter))
+    }
+}
+
+/// Counts bytes, and keeps none.
+struct ByteCount(u64);
+
+impl Write for ByteCount {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

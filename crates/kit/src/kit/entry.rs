@@ -76,11 +76,13 @@ pub enum Submenu {
     Theme,
     /// The size of text and controls.
     InterfaceSize,
+    /// Brushes that a person keeps under a name.
+    BrushPresets,
 }
 
 impl Submenu {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::AddLayer,
         Self::Combine,
         Self::Overlay,
@@ -88,6 +90,7 @@ impl Submenu {
         Self::Places,
         Self::Theme,
         Self::InterfaceSize,
+        Self::BrushPresets,
     ];
 
     /// Returns the title, as the menu around it shows it.
@@ -100,6 +103,7 @@ impl Submenu {
             Self::Places => "Places",
             Self::Theme => "Theme",
             Self::InterfaceSize => "Interface size",
+            Self::BrushPresets => "Brush presets",
         }
     }
 

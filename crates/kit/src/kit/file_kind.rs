@@ -14,6 +14,9 @@ pub struct FileKind {
     pub act: FileAct,
     /// The endings of such files, without the dot, the default one first.
     pub endings: fn() -> Vec<&'static str>,
+    /// The formats to choose from where a file is written in one of several: the default ending of each,
+    /// without the dot, and what the format is for.
+    pub formats: fn() -> Vec<(&'static str, &'static str)>,
     /// The contents of such files, in the words of a filter.
     pub contents: &'static str,
     /// Names the folder that the dialog opens with: the last one of a kind with this name.
@@ -68,6 +71,7 @@ impl FileKind {
             title: "",
             act: FileAct::Open,
             endings: Vec::new,
+            formats: Vec::new,
             contents: "",
             folder: "",
             suffix: "",

@@ -12,6 +12,7 @@ use crate::kit::tools::Tools;
 use crate::kit::view::View;
 use glam::DVec2;
 use meshbrush_core::earth::{DegreeStyle, EarthPlane};
+use meshbrush_core::paint::Mirror;
 use meshbrush_mesh::text::LengthUnit;
 
 /// The states of features, by their types.
@@ -75,6 +76,12 @@ impl<'a> FrameState<'a> {
     /// pixel can tell apart.
     pub fn place_text(&self, at: DVec2) -> PlaceText {
         place_text(self.session.document().settings(), self.view.coordinates, at, self.view.world_per_px())
+    }
+
+    /// Returns what repeats the strokes of the selected tool, if anything does.
+    pub fn stroke_mirror(&self) -> Option<Mirror> {
+        let mirrors = self.tools.paints() && self.tools.mirrored != [false; 2];
+        mirrors.then(|| self.tools.mirror(self.session.document().settings().domain.bounds))
     }
 
     /// Returns the place that is worked at, in world units: that of the pointer, or else the middle of the

@@ -165,14 +165,8 @@ pub fn paint_eyedropper(painter: &Painter, tip: Pos2) {
     icon([0.0, 0.0], Color32::WHITE);
 }
 
-/// Returns the lines of a mirror, and the images of a brush ring at `pointer`, in world units.
-pub fn paint_mirror(
-    painter: &Painter,
-    screen_from_world: &dyn Fn(DVec2) -> Pos2,
-    mirror: &Mirror,
-    pointer: DVec2,
-    radius: f32,
-) {
+/// The lines in which strokes are repeated.
+pub fn paint_mirror_lines(painter: &Painter, screen_from_world: &dyn Fn(DVec2) -> Pos2, mirror: &Mirror) {
     let view = painter.clip_rect();
     let middle = screen_from_world(DVec2::new(mirror.x.unwrap_or(0.0), mirror.y.unwrap_or(0.0)));
     let vertical = mirror.x.map(|_| [pos2(middle.x, view.top()), pos2(middle.x, view.bottom())]);
@@ -181,6 +175,17 @@ pub fn paint_mirror(
         painter.line_segment(line, Stroke::new(2.5, Color32::from_black_alpha(70)));
         painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, Color32::from_white_alpha(110)), 8.0, 6.0));
     }
+}
+
+/// The images of a brush ring at `pointer`, in world units, beyond the lines of a mirror. `radius` is in
+/// points.
+pub fn paint_mirror_images(
+    painter: &Painter,
+    screen_from_world: &dyn Fn(DVec2) -> Pos2,
+    mirror: &Mirror,
+    pointer: DVec2,
+    radius: f32,
+) {
     for image in mirror.images(pointer).skip(1) {
         let at = screen_from_world(image);
         painter.circle_stroke(at, radius.max(2.0), Stroke::new(2.5, Color32::from_black_alpha(70)));

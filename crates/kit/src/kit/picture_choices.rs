@@ -26,6 +26,10 @@ pub struct PictureChoices {
     pub furniture: Furniture,
 }
 
+/// The choices as they are stored: whether the width is one on paper, the width in pixels and in millimetres,
+/// pixels of an inch, the ground, and the furniture.
+pub type KeptPictures = (bool, u32, f64, f64, String, String);
+
 /// In what the width of a picture is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WidthIn {
@@ -46,6 +50,20 @@ pub enum GroundChoice {
     Transparent,
 }
 
+impl GroundChoice {
+    /// All grounds with their names in the storage.
+    const NAMES: [(Self, &'static str); 3] =
+        [(Self::AsShown, "as shown"), (Self::White, "white"), (Self::Transparent, "transparent")];
+
+    fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(ground, _)| *ground == self).map_or("", |(_, name)| name)
+    }
+
+    fn named(name: &str) -> Option<Self> {
+        Self::NAMES.iter().find(|(_, known)| *known == name).map(|(ground, _)| *ground)
+    }
+}
+
 impl Default for PictureChoices {
     /// A picture has what the canvas shows around the mesh.
     fn default() -> Self {
@@ -61,6 +79,25 @@ impl Default for PictureChoices {
 }
 
 impl PictureChoices {
+    /// Returns the choices as they are stored.
+    pub fn kept(&self) -> KeptPictures {
+        let Self { width_in, width_px, width_mm, dots_per_inch, ground, furniture } = *self;
+        let is_on_paper = width_in == WidthIn::Paper;
+        (is_on_paper, width_px, width_mm, dots_per_inch, ground.name().into(), furniture.to_string())
+    }
+
+    /// Returns choices that were stored; `None` where they have a value that nobody can choose.
+    pub fn of_kept(
+        (is_on_paper, width_px, width_mm, dots_per_inch, ground, furniture): KeptPictures,
+    ) -> Option<Self> {
+        let is_length = |value: f64| value.is_finite() && value > 0.0;
+        let is_size =
+            (1..=LARGEST_PICTURE).contains(&width_px) && is_length(width_mm) && is_length(dots_per_inch);
+        let (ground, furniture) = (GroundChoice::named(&ground)?, furniture.parse().ok()?);
+        let width_in = if is_on_paper { WidthIn::Paper } else { WidthIn::Pixels };
+        is_size.then_some(Self { width_in, width_px, width_mm, dots_per_inch, ground, furniture })
+    }
+
     /// Returns the greatest width in millimetres at these pixels of an inch.
     pub fn largest_mm(&self) -> f64 {
         f64::from(LARGEST_PICTURE) / self.dots_per_inch * INCH_MM
@@ -94,6 +131,26 @@ impl PictureChoices {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn choices_are_kept_and_impossible_ones_are_not_taken() {
+        for furniture in [Furniture::NONE, Furniture::ALL, Furniture { legend: true, ..Furniture::NONE }] {
+            for (ground, _) in GroundChoice::NAMES {
+                let choices =
+                    PictureChoices { width_in: WidthIn::Paper, ground, furniture, ..Default::default() };
+                assert_eq!(PictureChoices::of_kept(choices.kept()), Some(choices));
+            }
+        }
+        let kept = PictureChoices::default().kept();
+        for broken in [
+            (kept.0, 0, kept.2, kept.3, kept.4.clone(), kept.5.clone()),
+            (kept.0, kept.1, f64::NAN, kept.3, kept.4.clone(), kept.5.clone()),
+            (kept.0, kept.1, kept.2, kept.3, "pink".into(), kept.5.clone()),
+            (kept.0, kept.1, kept.2, kept.3, kept.4.clone(), "palms".into()),
+        ] {
+            assert_eq!(PictureChoices::of_kept(broken), None);
+        }
+    }
 
     #[test]
     fn a_width_on_paper_has_its_pixels_and_stays_within_the_limit() {

@@ -6,6 +6,7 @@ use egui::{Context, ViewportCommand};
 
 use super::background::Background;
 use super::command::{Command, FileCommand};
+use super::export_set::ExportSet;
 use super::home::{self, Claims, Expected, Home, Loss};
 use super::session::Session;
 use meshbrush_io::io;
@@ -35,6 +36,8 @@ pub struct ProjectFile {
     pub replacing: Option<Replacing>,
     /// The file to save to again after the current save.
     save_again: Option<PathBuf>,
+    /// The files that the mesh is exported to.
+    pub exports: ExportSet,
     /// The window closes once everything is written.
     closing: bool,
     /// The title that the desktop was given.
@@ -54,6 +57,7 @@ impl ProjectFile {
             given_up: None,
             replacing: None,
             save_again: None,
+            exports: ExportSet::default(),
             closing: false,
             window_title: String::new(),
         }
@@ -100,6 +104,7 @@ impl ProjectFile {
     pub fn open(&mut self, home: Option<Home>, version: u64, saved: bool) -> bool {
         (self.leaving, self.after_saving, self.given_up) = (None, None, None);
         (self.replacing, self.save_again) = (None, None);
+        self.exports = ExportSet::default();
         self.belongs_to(home, version, saved)
     }
 
@@ -262,6 +267,12 @@ impl ProjectFile {
     pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
         let files = ExportFormat::from_path(&path).map_or(Vec::new(), |format| format.files(&path));
         self.ask_to_replace(files, Command::from(FileCommand::Export(path)))
+    }
+
+    /// Returns the command that exports to all files again. Asks before it replaces one that this window has
+    /// not written.
+    pub fn export_again(&mut self) -> Option<Command> {
+        self.ask_to_replace(self.exports.foreign_files(), Command::from(FileCommand::ExportAll))
     }
 
     /// Returns the command that writes files. Asks before it replaces any.

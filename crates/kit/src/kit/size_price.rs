@@ -3,6 +3,7 @@
 use egui::Ui;
 
 use super::FrameState;
+use super::size_change::SizeEffect;
 use crate::kit::brake::Need;
 use crate::kit::command::{Command, EditCommand};
 use meshbrush_core::document::{Price, Setting, SettingKind};
@@ -29,9 +30,9 @@ pub fn size_price_row(
     }
     let (text, stands_out) = match (candidate, state.session.question()) {
         (Some(candidate), _) => (considered_text(state, &candidate), true),
-        (None, question) => match (state.session.last_size_change(kinds), question) {
+        (None, question) => match (state.session.last_size_effect(kinds), question) {
             (Some(_), Some(need)) => (need_text(need), true),
-            (Some(change), None) => (change_text(state, change), false),
+            (Some(effect), None) => (effect_text(state, effect), false),
             (None, _) => ("–".to_owned(), false),
         },
     };
@@ -74,14 +75,14 @@ fn need_text(need: Need) -> String {
 }
 
 /// Returns what the last change did, with the time that it took.
-fn change_text(state: &FrameState<'_>, change: i64) -> String {
+fn effect_text(state: &FrameState<'_>, SizeEffect { change, is_latest }: SizeEffect) -> String {
     let noun = if change.abs() == 1 { "triangle" } else { "triangles" };
     let text = match change {
         0 => "as many as before".to_owned(),
         change => format!("{} {noun}", format::change(change)),
     };
     let is_done = state.session.follower().is_in_step(state.session.document());
-    match state.session.last_update().filter(|_| is_done && !state.reproducible) {
+    match state.session.last_update().filter(|_| is_latest && is_done && !state.reproducible) {
         Some(time) => format!("{text}, {}", format::time(time.as_secs_f64())),
         None => text,
     }

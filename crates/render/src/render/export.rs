@@ -36,12 +36,16 @@ impl ExportFormat {
     /// # Errors
     /// Fails when the ending is none of [`Self::endings`].
     pub fn from_path(path: &Path) -> Result<Self, UnknownEnding> {
-        let found = match ending_of(path).as_str() {
+        Self::from_ending(&ending_of(path)).ok_or_else(|| UnknownEnding(path.to_owned()))
+    }
+
+    /// Returns the format that an ending chooses, in lower case and without the dot.
+    pub fn from_ending(ending: &str) -> Option<Self> {
+        match ending {
             "svg" => Some(Self::Svg),
             "png" => Some(Self::Png),
             ending => MeshFormat::from_ending(ending).map(Self::Mesh),
-        };
-        found.ok_or_else(|| UnknownEnding(path.to_owned()))
+        }
     }
 
     /// Returns the format with a name, [`Self::name`], or else with an ending, without the dot; upper and

@@ -51,6 +51,16 @@ impl PathFormat {
     /// All endings, without their dots, the default one first.
     pub const ENDINGS: [&'static str; 7] = ["geojson", "csv", "gpx", "kml", "svg", "png", "json"];
 
+    /// The formats by their default endings, without the dots, and what each is for.
+    pub const PURPOSES: [(&'static str, &'static str); 6] = [
+        ("geojson", "A line with its figures, for QGIS and web maps"),
+        ("csv", "A table with the cost up to each point"),
+        ("gpx", "A route for navigation programs and chart plotters"),
+        ("kml", "A line for Google Earth"),
+        ("svg", "A vector picture of the path over the mesh"),
+        ("png", "A picture of the path over the mesh"),
+    ];
+
     /// Returns the format that the ending of a file name chooses; upper and lower case are the same.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 //! The list shows the folder that the text is about, and narrows as a name is typed; Tab completes it. A
 //! problem with the file is shown below the text, which stays.
 
+mod export_doubts;
 mod listing;
 mod view;
 
@@ -32,7 +33,8 @@ pub struct FileDialog {
     /// The row of the list that the keyboard or a click selected.
     selected: Option<usize>,
     listing: Listing,
-    format: ExportFormat,
+    /// The default ending of the chosen format, without the dot.
+    ending: &'static str,
     problem: Option<String>,
     /// Set from the answer until its outcome is known.
     waits: Option<Busy>,
@@ -44,7 +46,6 @@ impl FileDialog {
     /// Asks for a file in a folder, with the name that is proposed.
     pub fn new(question: &SystemQuestion, jobs: &Jobs) -> Self {
         let SystemQuestion { request, document, folder, name } = question;
-        let first = || ExportFormat::all().next().expect("there are formats");
         Self {
             request,
             document: *document,
@@ -54,7 +55,7 @@ impl FileDialog {
             is_typed: false,
             selected: None,
             listing: Listing::of(folder, jobs),
-            format: ExportFormat::from_path(Path::new(name)).unwrap_or_else(|_| first()),
+            ending: format_of(request, name).unwrap_or_else(|| (request.endings)()[0]),
             problem: None,
             waits: None,
             selects_text: true,
@@ -69,6 +70,11 @@ impl FileDialog {
     /// Returns the request that the dialog answers.
     pub fn request(&self) -> FileRequest {
         self.request
+    }
+
+    /// Returns the format in which the mesh is to be written, if it is.
+    pub fn export_format(&self) -> Option<ExportFormat> {
+        ExportFormat::from_ending(self.ending).filter(|_| self.request == &EXPORT_MESH)
     }
 
     /// Returns whether the answer is being tried.
@@ -95,13 +101,8 @@ impl FileDialog {
     /// Returns the path that the text means.
     fn path(&self) -> PathBuf {
         let path = io::resolve(&self.text, &self.folder, self.home.as_deref());
-        let asks_for_format = self.request == &EXPORT_MESH && path.extension().is_none();
-        if asks_for_format { path.with_extension(self.ending()) } else { path }
-    }
-
-    /// Returns the ending of a file to write, without the dot.
-    fn ending(&self) -> &'static str {
-        if self.request == &EXPORT_MESH { self.format.ending() } else { (self.request.endings)()[0] }
+        let asks_for_format = !(self.request.formats)().is_empty() && path.extension().is_none();
+        if asks_for_format { path.with_extension(self.ending) } else { path }
     }
 
     /// Returns the folder and the beginning of a name that a typed text asks for.
@@ -189,20 +190,31 @@ impl FileDialog {
 
     /// The format follows the ending of the text.
     fn follow_ending(&mut self) {
-        if let Ok(format) = ExportFormat::from_path(Path::new(self.text.trim())) {
-            self.format = format;
+        if let Some(ending) = format_of(self.request, self.text.trim()) {
+            self.ending = ending;
         }
     }
 
     /// The ending of the text follows the format.
     fn follow_format(&mut self) {
         let path = Path::new(&self.text);
-        let stem =
-            if ExportFormat::from_path(path).is_ok() { path.with_extension("") } else { path.to_owned() };
+        let has_format = self.request.takes(path.file_name().unwrap_or_default());
+        let stem = if has_format { path.with_extension("") } else { path.to_owned() };
         let name = stem.to_string_lossy().into_owned();
-        self.text = if name.is_empty() { name } else { format!("{name}.{}", self.format.ending()) };
+        self.text = if name.is_empty() { name } else { format!("{name}.{}", self.ending) };
         (self.is_typed, self.problem) = (false, None);
     }
+}
+
+/// Returns the default ending of the format that the name of a file to write chooses; `None` where it chooses
+/// none.
+fn format_of(request: FileRequest, name: &str) -> Option<&'static str> {
+    let ending = Path::new(name).extension()?.to_string_lossy().to_ascii_lowercase();
+    let own = || (request.formats)().into_iter().map(|(ending, _)| ending).find(|own| *own == ending);
+    if request == &EXPORT_MESH {
+        return ExportFormat::from_ending(&ending).map(ExportFormat::ending);
+    }
+    own()
 }
 
 /// Returns the common beginning of the names of all rows, in the capitals of the first one. If there is only

@@ -8,10 +8,10 @@ use eframe::egui::{
     self, Context, EventFilter, Key, Modifiers, Rect, Response, RichText, Ui, UiBuilder, vec2,
 };
 
-use super::{Contents, FileDialog};
+use super::{Contents, FileDialog, export_doubts};
 
 use crate::app::dialogs::pictures;
-use crate::app::file_kinds::EXPORT_MESH;
+use crate::app::mesh_export::ExportFigures;
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
 use meshbrush_io::io::ThirdCoordinate;
@@ -35,6 +35,8 @@ const SHORT_LIST: f32 = 120.0;
 pub struct FileFacts<'a> {
     /// Triangles that an export writes.
     pub triangles: usize,
+    /// What an export writes, or why it cannot be written, once it is measured.
+    pub figures: Option<&'a Result<ExportFigures, String>>,
     /// The settings of the document.
     pub settings: &'a Settings,
     /// How exported pictures look.
@@ -97,9 +99,8 @@ impl FileDialog {
             let clicked = self.list(ui, &rows);
             ui.add_space(8.0);
             let entered = self.text_row(ui, &rows);
-            if self.request == &EXPORT_MESH {
-                self.format_rows(ui, facts);
-            }
+            self.format_row(ui);
+            self.figure_rows(ui, facts);
             if self.writes_picture() {
                 pictures::rows(ui, facts.picture, commands);
             }
@@ -265,25 +266,38 @@ impl FileDialog {
 
     /// Returns whether the file is a picture of the mesh.
     fn writes_picture(&self) -> bool {
-        self.request == &EXPORT_MESH && matches!(self.format, ExportFormat::Png | ExportFormat::Svg)
+        matches!(self.export_format(), Some(ExportFormat::Png | ExportFormat::Svg))
     }
 
-    /// The format of an export, and what will be written.
-    fn format_rows(&mut self, ui: &mut Ui, facts: &FileFacts<'_>) {
-        let names: Vec<(ExportFormat, String)> = ExportFormat::all()
-            .map(|format| (format, format!(".{}   {}", format.ending(), format.purpose())))
-            .collect();
-        let choices: Vec<(ExportFormat, &str)> =
-            names.iter().map(|(format, name)| (*format, name.as_str())).collect();
-        if dropdown_row(ui, "Format", &mut self.format, &choices).changed() {
+    /// The format of a file that is written in one of several.
+    fn format_row(&mut self, ui: &mut Ui) {
+        let formats = (self.request.formats)();
+        if formats.is_empty() {
+            return;
+        }
+        let name = |(ending, purpose): &(&'static str, &str)| (*ending, format!(".{ending}   {purpose}"));
+        let names: Vec<(&'static str, String)> = formats.iter().map(name).collect();
+        let choices: Vec<(&'static str, &str)> =
+            names.iter().map(|(ending, name)| (*ending, name.as_str())).collect();
+        if dropdown_row(ui, "Format", &mut self.ending, &choices).changed() {
             self.follow_format();
         }
-        let written = written(self.format, facts, &self.path());
-        let written = format!("{written}{}", coordinates_in(self.format, facts.settings));
-        ui.horizontal(|ui| {
-            ui.add_space(metrics::LABEL_WIDTH);
-            ui.label(RichText::new(written).font(font::caption()).color(tokens(ui).label));
-        });
+    }
+
+    /// What an export of the mesh writes, and what a person may miss in it.
+    fn figure_rows(&self, ui: &mut Ui, facts: &FileFacts<'_>) {
+        let Some(format) = self.export_format() else { return };
+        let written = written(format, facts, &self.path());
+        let written = format!("{written}{}", coordinates_in(format, facts.settings));
+        let doubts = export_doubts::sentences(format, facts.settings, facts.figures);
+        let [quiet, plain] = [tokens(ui).label, tokens(ui).text];
+        let rows = [(written, quiet)].into_iter().chain(doubts.map(|doubt| (doubt, plain)));
+        for (sentence, color) in rows {
+            ui.horizontal(|ui| {
+                ui.add_space(metrics::LABEL_WIDTH);
+                ui.add(egui::Label::new(RichText::new(sentence).font(font::caption()).color(color)).wrap());
+            });
+        }
     }
 
     /// Shows the progress of reading, and the buttons.
@@ -315,6 +329,10 @@ fn written(format: ExportFormat, facts: &FileFacts<'_>, path: &Path) -> String {
         1 => String::new(),
         files => format!(" in {files} files"),
     };
+    if let Some(&Ok(ExportFigures { bytes: Some(bytes), triangles, nodes, .. })) = facts.figures {
+        let [triangles, nodes] = [triangles, nodes].map(|count| format::count(count as u64));
+        return format!("{triangles} triangles, {nodes} nodes, {}{files}.", format::file_size(bytes));
+    }
     // No more digits than the estimate is worth.
     let about = |bytes: u64| format::rounded(bytes as f64, 2) as u64;
     match format.approximate_bytes(triangles).map(about) {

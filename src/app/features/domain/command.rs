@@ -17,6 +17,8 @@ pub enum DomainCommand {
     /// Adds a shape to the domain (`true`) or removes it. Further shapes join this gesture until
     /// [`Command::EndGesture`].
     Reshape(CutShape, bool),
+    /// Adds the hole of the domain around a point (`true`), or removes the part that the point is in.
+    Fill(DVec2, bool),
     /// Sets the next corner of the polygon to cut with.
     AddCorner(DVec2),
     /// Moves one of its corners.

@@ -18,7 +18,10 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let mut items = vec![
         mode("Cut domain with the brush", DomainToolMode::Brush).group(),
         mode("Cut domain with a rectangle", DomainToolMode::Rectangle),
+        mode("Cut domain with a circle", DomainToolMode::Circle),
+        mode("Cut domain with a lasso", DomainToolMode::Lasso),
         mode("Cut domain with a polygon", DomainToolMode::Polygon),
+        mode("Fill holes of the domain, or remove parts", DomainToolMode::Fill),
         mode("Draw the frame of the domain", DomainToolMode::Frame),
         item("Add to the domain", DomainCommand::Adds(!adds))
             .key(Key::X)

@@ -8,6 +8,8 @@ use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
 };
 use crate::app::features::domain::DomainTool;
+use glam::DVec2;
+use meshbrush_core::document::Drawing;
 use meshbrush_core::domain::CutShape;
 use meshbrush_kit::kit::{Ctx, Feature, Row};
 
@@ -26,6 +28,7 @@ impl Feature for DomainEditor {
         let tool = ctx.tools.settings_mut::<DomainTool>();
         match command {
             DomainCommand::Reshape(cut_shape, adds) => reshape(cut_shape, adds, ctx),
+            DomainCommand::Fill(point, adds) => fill(point, adds, ctx),
             DomainCommand::AddCorner(corner) => tool.corners.push(corner),
             DomainCommand::MoveCorner(index, corner) => {
                 if let Some(place) = tool.corners.get_mut(index) {
@@ -91,6 +94,19 @@ fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {
 fn reshape(cut_shape: CutShape, adds: bool, ctx: &mut Ctx<'_>) {
     ctx.session.reshape(cut_shape, adds);
     ctx.tools.note_use(&DOMAIN);
+}
+
+/// Adds the hole of the domain around a point, or removes its part there; says why not.
+fn fill(point: DVec2, adds: bool, ctx: &mut Ctx<'_>) {
+    let drawing = Drawing::Domain(ctx.session.document().settings().domain.clone());
+    match drawing.fill_at(point, adds) {
+        Some(area) => {
+            reshape(area, adds, ctx);
+            ctx.session.end_gesture();
+        }
+        None if adds => ctx.session.tell("Nothing was added: this place is in no hole of the domain.".into()),
+        None => ctx.session.tell("Nothing was removed: the domain has no part here.".into()),
+    }
 }
 
 fn close_polygon(ctx: &mut Ctx<'_>) {

@@ -1,16 +1,15 @@
-//! The domain tool: cuts the domain with a brush, a rectangle or a polygon, or sets its bounds.
+//! The domain tool: cuts the domain with a brush or with shapes, or sets its bounds.
 
 use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
 use super::{DOMAIN_OPTIONS, DomainCommand};
 use meshbrush_core::document::DrawnPart;
-use meshbrush_core::domain::{CutShape, corners};
-use meshbrush_kit::kit::command::{Command, EditCommand};
+use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::tools::{ToolSettings, Tools, first_settings};
 use meshbrush_kit::kit::{
-    CLICK_SLACK, DrawingCommands, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks,
-    press_brush, press_corner,
+    CLICK_SLACK, DraggedShape, DrawingCommands, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec,
+    marks, press_brush, press_corner, press_shape,
 };
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
@@ -35,6 +34,8 @@ pub static DOMAIN: ToolSpec = ToolSpec {
 fn hint(state: &FrameState<'_>) -> &'static [Hint<'static>] {
     match state.tools.settings::<DomainTool>().mode {
         DomainToolMode::Brush | DomainToolMode::Rectangle => HINT,
+        DomainToolMode::Circle | DomainToolMode::Lasso => HINT,
+        DomainToolMode::Fill => FILL_HINT,
         DomainToolMode::Polygon => POLYGON_HINT,
         DomainToolMode::Frame => FRAME_HINT,
     }
@@ -49,10 +50,17 @@ const POLYGON_HINT: &[Hint] = &[
     HintKey("Esc"),
     Text("all"),
 ];
+const FILL_HINT: &[Hint] = &[
+    Text("Click land within the outline to add it, or a part of the domain to remove it"),
+    KeyOf("add-to-the-domain"),
+    Text("add or remove"),
+    HintKey("Alt"),
+    Text("the opposite"),
+];
 const FRAME_HINT: &[Hint] =
     &[Text("Drag a rectangle: the coarse grid covers it, and cuts polygons off at its sides")];
 const HINT: &[Hint] = &[
-    Text("Cut the domain: brush, rectangle or polygon"),
+    Text("Drag to cut the domain"),
     KeyOf("add-to-the-domain"),
     Text("add or remove"),
     HintKey("Alt"),
@@ -69,6 +77,12 @@ pub enum DomainToolMode {
     Brush,
     /// A rectangle from corner to corner.
     Rectangle,
+    /// A circle from its centre.
+    Circle,
+    /// An outline by free hand.
+    Lasso,
+    /// The hole, or the part of the domain, under the pointer.
+    Fill,
     /// A polygon, corner by corner.
     Polygon,
     /// The rectangle that the coarse grid covers: nothing is cut.
@@ -96,11 +110,16 @@ impl ToolSettings for DomainTool {
 fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
     let tool = pointer.tools.settings::<DomainTool>();
     let adds = tool.adds != press.modifiers.alt;
-    let (from, to) = (press.at, press.at);
     Some(match tool.mode {
         DomainToolMode::Brush => press_brush(&COMMANDS, press, pointer, adds, commands),
-        DomainToolMode::Rectangle => Box::new(Framing { from, to, adds: Some(adds) }),
-        DomainToolMode::Frame => Box::new(Framing { from, to, adds: None }),
+        DomainToolMode::Rectangle => press_shape(&COMMANDS, DraggedShape::Rectangle, press, adds),
+        DomainToolMode::Circle => press_shape(&COMMANDS, DraggedShape::Circle, press, adds),
+        DomainToolMode::Lasso => press_shape(&COMMANDS, DraggedShape::Lasso, press, adds),
+        DomainToolMode::Fill => {
+            commands.push(Command::from(DomainCommand::Fill(pointer.world(press.at), adds)));
+            return None;
+        }
+        DomainToolMode::Frame => Box::new(Framing { from: press.at, to: press.at }),
         DomainToolMode::Polygon => press_corner(&COMMANDS, press, pointer, &tool.corners, commands),
     })
 }
@@ -132,15 +151,13 @@ fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
     entries
 }
 
-/// Drawing a rectangle: the domain's bounds, or one to cut with.
+/// Drawing the bounds of the domain.
 #[derive(Debug)]
 struct Framing {
     /// The point where the pointer went down, in points.
     from: Pos2,
     /// The position of the pointer, in points.
     to: Pos2,
-    /// Whether the rectangle is added to the domain or removed from it; `None` where it becomes the bounds.
-    adds: Option<bool>,
 }
 
 impl Gesture for Framing {
@@ -153,14 +170,7 @@ impl Gesture for Framing {
             return;
         }
         let rect = WorldRect::spanning(pointer.rounded_world(self.from), pointer.rounded_world(at));
-        let Some(adds) = self.adds else {
-            return commands.push(Command::from(DomainCommand::Bounds(rect)));
-        };
-        let ring = CutShape::Ring(corners(&rect));
-        commands.extend([
-            Command::from(DomainCommand::Reshape(ring, adds)),
-            Command::from(EditCommand::EndGesture),
-        ]);
+        commands.push(Command::from(DomainCommand::Bounds(rect)));
     }
 
     fn ends_on_escape(&self) -> bool {

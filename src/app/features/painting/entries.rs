@@ -2,22 +2,25 @@
 
 use eframe::egui::{Key, Modifiers};
 
+use super::options::can_paint_errors;
 use super::{ERASER, GESTURES};
 use meshbrush_kit::kit::command::{BrushCommand, Command};
 use meshbrush_kit::kit::tools::{BrushMode, PaintKind, Tools};
-use meshbrush_kit::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING};
+use meshbrush_kit::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING, Submenu};
 
 /// The brush, gestures that are hard to find, and what the digits set.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     // The menu has what the selected tool does.
     let is_brush = state.tools.paints();
-    let brush = brush(state.tools).into_iter().chain(GESTURES.iter().filter_map(GestureHelp::entry));
+    let brush = brush(state).into_iter().chain(GESTURES.iter().filter_map(GestureHelp::entry));
     let brush = brush.map(|item| item.in_menu(is_brush).above());
+    let brush = brush.chain(presets(state.tools).map(move |item| item.in_menu(is_brush).above()));
     brush.chain(amounts(state.tools).map(CatalogItem::palette_only)).collect()
 }
 
-fn brush(tools: &Tools) -> Vec<CatalogItem> {
+fn brush(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::Tool as InTool;
+    let tools = state.tools;
     let kind = |title: &str, kind| {
         CatalogItem::new(InTool, title, Command::from(BrushCommand::Kind(kind))).checked(tools.kind == kind)
     };
@@ -39,7 +42,7 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
     vec![
         kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
         kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
-        kind("Paint largest error", PaintKind::Error),
+        kind("Paint largest error", PaintKind::Error).in_menu(can_paint_errors(state)),
         mode(BrushMode::BuildUp, "Build up").key(Key::U).group(),
         mode(BrushMode::Set, "Set the value").key(Key::V),
         mode(BrushMode::Lower, "Lower").key(Key::L),
@@ -55,6 +58,19 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
         harder("Harder brush", 0.1, Key::I, Key::CloseCurlyBracket),
         harder("Softer brush", -0.1, Key::J, Key::OpenCurlyBracket),
     ]
+}
+
+/// The presets of the brush, and what keeps it as one.
+fn presets(tools: &Tools) -> impl Iterator<Item = CatalogItem> {
+    let chosen = tools.chosen_preset();
+    let uses = tools.presets().iter().enumerate().map(move |(number, preset)| {
+        let command = Command::from(BrushCommand::UsePreset(number));
+        let item = CatalogItem::new(Menu::Tool, format!("Brush preset: {}", preset.name), command);
+        item.id(format!("brush-preset-{}", number + 1)).checked(chosen == Some(number))
+    });
+    let keep = Command::from(BrushCommand::KeepPreset);
+    let keep = CatalogItem::new(Menu::Tool, "Keep the brush as a preset", keep).enabled(chosen.is_none());
+    uses.chain([keep]).map(|item| item.within(Submenu::BrushPresets))
 }
 
 /// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do

@@ -46,7 +46,11 @@ impl Feature for Painting {
             BrushCommand::Smoothing(smoothing) => tools.smoothing = smoothing.clamp(0.0, 1.0),
             BrushCommand::MirrorX(mirrored) => tools.mirrored[0] = mirrored,
             BrushCommand::MirrorY(mirrored) => tools.mirrored[1] = mirrored,
-            BrushCommand::PenEffect(effect) => tools.pen.effect = effect,
+            BrushCommand::PenResponse(response) => tools.pen.response = response,
+            BrushCommand::UsePreset(number) => use_preset(number, ctx),
+            BrushCommand::KeepPreset => keep_preset(ctx),
+            BrushCommand::RenamePreset(number, name) => tools.rename_preset(number, &name),
+            BrushCommand::RemovePreset(number) => tools.remove_preset(number),
             BrushCommand::Pen(pressure) => tools.pen.set_pressure(pressure),
         }
     }
@@ -142,6 +146,23 @@ fn set_brush_diameter(diameter: f64, ctx: &mut Ctx<'_>) {
     let range = brush_diameters(&ctx.session.document().settings().transfer);
     if diameter.is_finite() {
         ctx.tools.diameter = diameter.clamp(*range.start(), *range.end());
+    }
+}
+
+fn use_preset(number: usize, ctx: &mut Ctx<'_>) {
+    ctx.tools.use_preset(number);
+    // What a brush of another document has may not suit this one.
+    set_brush_radius(ctx.tools.radius, ctx);
+    set_brush_diameter(ctx.tools.diameter, ctx);
+    if !ctx.tools.paints() {
+        ctx.tools.select_brush();
+    }
+    select_layer_painted_with(ctx.tools.kind, ctx);
+}
+
+fn keep_preset(ctx: &mut Ctx<'_>) {
+    if !ctx.tools.keep_preset() {
+        ctx.session.tell("The brush was not kept: there are 24 presets. Remove one first.".into());
     }
 }
 

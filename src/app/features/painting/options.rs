@@ -7,12 +7,12 @@ use eframe::egui::Ui;
 use super::ERASER;
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 use meshbrush_kit::kit::command::{BrushCommand, Command};
-use meshbrush_kit::kit::tools::{BrushMode, FIRST_HARDNESS, PaintKind, PenEffect};
-use meshbrush_kit::kit::{FrameState, StripItem, radius_row};
-use meshbrush_ui::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
+use meshbrush_kit::kit::tools::{BrushMode, FIRST_HARDNESS, PaintKind, PenResponse};
+use meshbrush_kit::kit::{FrameState, StripItem, button_rows, name_field, radius_row};
+use meshbrush_ui::widgets::{NumberRow, SliderRow, dropdown_row, format, segmented, toggle_row, value_row};
 
 /// What the brush paints and how, its size, and how strokes are drawn.
-pub static BRUSH_OPTIONS: [StripItem; 10] = [
+pub static BRUSH_OPTIONS: [StripItem; 13] = [
     StripItem::new(136.0, 0, kind_row).only(|state| !can_paint_errors(state)),
     StripItem::new(200.0, 0, kind_row).only(can_paint_errors),
     StripItem::new(184.0, 3, mode_row),
@@ -20,19 +20,25 @@ pub static BRUSH_OPTIONS: [StripItem; 10] = [
     StripItem::new(136.0, 2, amount_row).stretching(),
     StripItem::new(128.0, 4, hardness_row).stretching(),
     StripItem::new(144.0, 5, painted_row).stretching(),
+    StripItem::new(112.0, 1, mirror_chip).only(is_mirrored),
+    StripItem::rare(preset_row),
+    StripItem::rare(preset_rows),
     StripItem::rare(smoothing_row),
     StripItem::rare(mirror_rows),
-    StripItem::rare(pen_row).only(|state| state.tools.pen.is_known()),
+    StripItem::rare(pen_rows).only(|state| state.tools.pen.is_known()),
 ];
 
 /// The same of the eraser.
-pub static ERASER_OPTIONS: [StripItem; 6] = [
+pub static ERASER_OPTIONS: [StripItem; 9] = [
     StripItem::new(136.0, 0, radius_row).stretching(),
     StripItem::new(136.0, 1, amount_row).stretching(),
     StripItem::new(128.0, 2, hardness_row).stretching(),
+    StripItem::new(112.0, 0, mirror_chip).only(is_mirrored),
+    StripItem::rare(preset_row),
+    StripItem::rare(preset_rows),
     StripItem::rare(smoothing_row),
     StripItem::rare(mirror_rows),
-    StripItem::rare(pen_row).only(|state| state.tools.pen.is_known()),
+    StripItem::rare(pen_rows).only(|state| state.tools.pen.is_known()),
 ];
 
 fn send(command: BrushCommand, commands: &mut Vec<Command>) {
@@ -40,7 +46,7 @@ fn send(command: BrushCommand, commands: &mut Vec<Command>) {
 }
 
 /// Returns whether errors can be painted: there is a surface.
-fn can_paint_errors(state: &FrameState<'_>) -> bool {
+pub fn can_paint_errors(state: &FrameState<'_>) -> bool {
     state.tools.kind == PaintKind::Error || state.session.document().settings().has_surface()
 }
 
@@ -163,6 +169,58 @@ fn painted(state: &FrameState<'_>) -> String {
     format!("{} · {level}", format::length(diameter, state.unit()))
 }
 
+fn is_mirrored(state: &FrameState<'_>) -> bool {
+    state.tools.mirrored != [false; 2]
+}
+
+/// Says that strokes are repeated, and stops it with a click.
+fn mirror_chip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut on = true;
+    let name = match state.tools.mirrored {
+        [true, true] => "Mirrored x, y",
+        [true, false] => "Mirrored x",
+        [false, _] => "Mirrored y",
+    };
+    if toggle_row(ui, name, &mut on).changed() {
+        send(BrushCommand::MirrorX(false), commands);
+        send(BrushCommand::MirrorY(false), commands);
+    }
+}
+
+/// Shows which preset the brush is, and chooses another one.
+fn preset_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let chosen = state.tools.chosen_preset();
+    let own = chosen.is_none().then_some((None, "own"));
+    let presets =
+        state.tools.presets().iter().enumerate().map(|(number, preset)| (Some(number), &*preset.name));
+    let choices: Vec<(Option<usize>, &str)> = own.into_iter().chain(presets).collect();
+    let mut choice = chosen;
+    if dropdown_row(ui, "Preset", &mut choice, &choices).changed()
+        && let Some(number) = choice
+    {
+        send(BrushCommand::UsePreset(number), commands);
+    }
+}
+
+/// Keeps the brush as a preset; names or removes the preset that it is.
+fn preset_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(number) = state.tools.chosen_preset() else {
+        return button_rows(
+            ui,
+            [[("Keep the brush as a preset", true, Command::from(BrushCommand::KeepPreset))]],
+            commands,
+        );
+    };
+    if let Some(name) = name_field(ui, "brush preset", &state.tools.presets()[number].name) {
+        send(BrushCommand::RenamePreset(number, name), commands);
+    }
+    button_rows(
+        ui,
+        [[("Remove the preset", true, Command::from(BrushCommand::RemovePreset(number)))]],
+        commands,
+    );
+}
+
 fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let [mut x, mut y] = state.tools.mirrored;
     ui.columns(2, |columns| {
@@ -175,14 +233,21 @@ fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     });
 }
 
-/// Shows the effect of a pen's pressure.
-fn pen_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut effect = state.tools.pen.effect;
-    let choices =
-        [(PenEffect::None, "No pressure"), (PenEffect::Size, "Radius"), (PenEffect::Strength, "Strength")];
-    let row = segmented(ui, "What the pressure of the pen changes", &mut effect, &choices);
-    if row.changed() {
-        send(BrushCommand::PenEffect(effect), commands);
+/// Shows what a pen's pressure changes, and its curve.
+fn pen_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut response = state.tools.pen.response;
+    ui.columns(2, |columns| {
+        toggle_row(&mut columns[0], "Pen: radius", &mut response.changes_radius);
+        toggle_row(&mut columns[1], "Pen: strength", &mut response.changes_strength);
+    });
+    if response.changes_radius || response.changes_strength {
+        let row = SliderRow::new("Pen curve", &mut response.exponent, PenResponse::EXPONENTS).logarithmic();
+        let help = "Exponent of the curve from the pressure of the pen to the share of radius or strength, 0.25 to 4. \
+                    Below 1 a light touch does much; above 1 only a firm one.";
+        row.default(1.0).help(help).show(ui);
+    }
+    if response != state.tools.pen.response {
+        send(BrushCommand::PenResponse(response), commands);
     }
 }
 

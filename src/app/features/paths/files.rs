@@ -20,6 +20,7 @@ pub static EXPORT_PATH: FileKind = FileKind {
     title: "Export path",
     act: FileAct::Export,
     endings: || PathFormat::ENDINGS.to_vec(),
+    formats: || PathFormat::PURPOSES.to_vec(),
     contents: "Lines, tables, routes and pictures",
     folder: "exports",
     suffix: " path",

@@ -10,6 +10,7 @@ pub static EXPORT_PLOT: FileKind = FileKind {
     title: "Export plot",
     act: FileAct::Export,
     endings: || plot::ENDINGS.to_vec(),
+    formats: || vec![("svg", "A vector drawing"), ("csv", "A table of the points")],
     contents: "Drawings and tables",
     folder: "exports",
     suffix: " plot",

@@ -11,6 +11,8 @@ pub enum RegionCommand {
     /// Adds a shape to the target of the tool (`true`) or cuts it away. Further shapes join until
     /// [`EditCommand::EndGesture`](meshbrush_kit::kit::command::EditCommand::EndGesture).
     Draw(DrawnShape, bool),
+    /// Fills the hole around a point (`true`), or cuts away the part that it is in.
+    Fill(DVec2, bool),
     /// Sets the next corner of the polygon or the line.
     AddCorner(DVec2),
     /// Moves one of its corners.
@@ -53,8 +55,16 @@ pub enum RegionShape {
     /// The brush ring.
     #[default]
     Brush,
+    /// A rectangle, from corner to corner.
+    Rectangle,
+    /// A circle, from its centre.
+    Circle,
+    /// An outline by free hand.
+    Lasso,
     /// A polygon, corner by corner.
     Polygon,
+    /// The hole, or the part, under the pointer.
+    Fill,
     /// A polyline, among shapes only.
     Line,
     /// Points, among shapes only.

@@ -23,15 +23,19 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         target("Draw a keep-out region", RegionTarget::KeepOut),
         target("Draw shapes to measure the distance to", RegionTarget::Shapes),
         shape("Draw regions with the brush", RegionShape::Brush).group(),
+        shape("Draw regions with a lasso", RegionShape::Lasso),
         shape("Draw regions with a polygon", RegionShape::Polygon),
+        shape("Draw rectangles", RegionShape::Rectangle),
+        shape("Draw circles", RegionShape::Circle),
+        shape("Fill holes of a region, or remove parts", RegionShape::Fill),
         item("Cut from the region", RegionCommand::Cuts(!tool.cuts))
             .key(Key::X)
             .only("with the region tool", is_tool)
             .checked(tool.cuts),
     ];
-    if tool.target == RegionTarget::Shapes && !tool.cuts {
-        items.insert(5, shape("Draw lines", RegionShape::Line));
-        items.insert(6, shape("Draw points", RegionShape::Point));
+    if tool.has_lines_and_points() {
+        items.push(shape("Draw lines", RegionShape::Line));
+        items.push(shape("Draw points", RegionShape::Point));
     }
     if is_tool && tool.target != RegionTarget::Shapes {
         items.push(item("Clear the region", RegionCommand::Clear));

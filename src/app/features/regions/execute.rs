@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
 use super::gestures::GESTURES;
 use super::{REGION, RegionCommand, RegionShape, RegionTarget, Regions, entries};
 use crate::app::features::regions::RegionTool;
@@ -20,6 +22,7 @@ impl Feature for Regions {
         let tool = ctx.tools.settings_mut::<RegionTool>();
         match command {
             RegionCommand::Draw(shape, adds) => draw(shape, adds, ctx),
+            RegionCommand::Fill(point, adds) => fill(point, adds, ctx),
             RegionCommand::AddCorner(corner) => tool.corners.push(corner),
             RegionCommand::MoveCorner(index, corner) => {
                 if let Some(place) = tool.corners.get_mut(index) {
@@ -63,19 +66,62 @@ fn use_tool(ctx: &mut Ctx<'_>) {
 /// Draws a shape on the target of the tool, or says why it has none.
 fn draw(shape: DrawnShape, adds: bool, ctx: &mut Ctx<'_>) {
     ctx.tools.note_use(&REGION);
-    let part = match ctx.tools.settings::<RegionTool>().target {
-        RegionTarget::Mask => layer_to_draw_on(ctx.session).map(|layer| DrawnPart::Mask(layer.id)),
-        RegionTarget::KeepOut => keep_out_to_draw_on(&shape, adds, ctx),
-        RegionTarget::Shapes => match layer_of_shapes(ctx.session) {
-            Ok(Some(layer)) => Ok(DrawnPart::Shapes(layer.id)),
-            Ok(None) if adds => return add_layer_of(&shape, ctx),
-            Ok(None) => Err("Nothing can be cut: select a layer of the distance to shapes first."),
-            Err(problem) => Err(problem),
-        },
-    };
-    match part {
-        Ok(part) => ctx.session.draw(part, shape, adds),
+    match part_to_draw_on(&shape, adds, ctx) {
+        Ok(Some(part)) => ctx.session.draw(part, shape, adds),
+        Ok(None) => add_layer_of(&shape, ctx),
         Err(problem) => ctx.session.report(problem),
+    }
+}
+
+/// Fills the hole of the target around a point, or cuts away its part there; says why not.
+fn fill(point: DVec2, adds: bool, ctx: &mut Ctx<'_>) {
+    choose_keep_out_to_fill(point, adds, ctx);
+    let part = match part_to_draw_on(&DrawnShape::Point(point), adds, ctx) {
+        Ok(part) => part,
+        Err(problem) => return ctx.session.report(problem),
+    };
+    let drawing = part.and_then(|part| part.drawing(ctx.session.document().settings()));
+    match drawing.and_then(|drawing| drawing.fill_at(point, adds)) {
+        Some(area) => {
+            draw(DrawnShape::Area(area), adds, ctx);
+            ctx.session.end_gesture();
+        }
+        None if adds => ctx.session.tell(
+            "Nothing was filled: no outline of the region encloses this place. Draw one around it first."
+                .into(),
+        ),
+        None => ctx.session.tell("Nothing was removed: no part of the region is here.".into()),
+    }
+}
+
+/// Where keep-out regions are filled and none is chosen, chooses the one that can be filled at a point.
+fn choose_keep_out_to_fill(point: DVec2, adds: bool, ctx: &mut Ctx<'_>) {
+    let settings = ctx.session.document().settings();
+    let can_fill = |number: &usize| {
+        let drawing = DrawnPart::KeepOut(*number).drawing(settings);
+        drawing.is_some_and(|drawing| drawing.fill_at(point, adds).is_some())
+    };
+    let tool = ctx.tools.settings_mut::<RegionTool>();
+    if tool.target == RegionTarget::KeepOut && tool.keep_out.is_none() {
+        tool.keep_out = (0..settings.paths.keep_out.len()).find(can_fill);
+    }
+}
+
+/// Returns the part of the document that the tool draws on; `None` where what is added makes a layer of its
+/// own.
+fn part_to_draw_on(
+    shape: &DrawnShape,
+    adds: bool,
+    ctx: &mut Ctx<'_>,
+) -> Result<Option<DrawnPart>, &'static str> {
+    match ctx.tools.settings::<RegionTool>().target {
+        RegionTarget::Mask => layer_to_draw_on(ctx.session).map(|layer| Some(DrawnPart::Mask(layer.id))),
+        RegionTarget::KeepOut => keep_out_to_draw_on(shape, adds, ctx).map(Some),
+        RegionTarget::Shapes => match layer_of_shapes(ctx.session)? {
+            Some(layer) => Ok(Some(DrawnPart::Shapes(layer.id))),
+            None if adds => Ok(None),
+            None => Err("Nothing can be cut: select a layer of the distance to shapes first."),
+        },
     }
 }
 

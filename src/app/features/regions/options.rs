@@ -11,7 +11,7 @@ use meshbrush_ui::widgets::{dropdown_row, segmented};
 /// What is drawn on, with what, whether it adds, and the size of the brush.
 pub static REGION_OPTIONS: [StripItem; 6] = [
     StripItem::new(232.0, 0, target_row),
-    StripItem::new(248.0, 1, shape_row),
+    StripItem::new(208.0, 1, shape_row),
     StripItem::new(112.0, 2, cuts_row),
     StripItem::new(136.0, 3, radius_row)
         .only(|state| state.tools.settings::<RegionTool>().shape() == RegionShape::Brush),
@@ -50,12 +50,16 @@ fn shape_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut shape = tool.shape();
     let choices = [
         (RegionShape::Brush, "Brush"),
+        (RegionShape::Lasso, "Lasso"),
         (RegionShape::Polygon, "Polygon"),
+        (RegionShape::Rectangle, "Rectangle"),
+        (RegionShape::Circle, "Circle"),
+        (RegionShape::Fill, "Fill"),
         (RegionShape::Line, "Line"),
         (RegionShape::Point, "Point"),
     ];
-    let count = if tool.target == RegionTarget::Shapes && !tool.cuts { 4 } else { 2 };
-    if segmented(ui, "What it is drawn with", &mut shape, &choices[..count]).changed() {
+    let count = choices.len() - if tool.has_lines_and_points() { 0 } else { 2 };
+    if dropdown_row(ui, "Draw with", &mut shape, &choices[..count]).changed() {
         commands.push(Command::from(RegionCommand::Shape(shape)));
     }
 }

@@ -47,6 +47,88 @@ fn choose(window: &mut Window, choice: &str) {
     window.run();
 }
 
+/// Chooses a shape in the list of the strip.
+fn draw_with(window: &mut Window, shape: &str) {
+    window.get_by_role_and_label(Role::ComboBox, "Draw with").click();
+    window.run();
+    window.get_all_by_role_and_label(Role::Button, shape).last().unwrap().click();
+    window.run();
+}
+
+#[test]
+fn rectangle_circle_and_lasso_are_drawn_in_one_drag_and_holes_are_filled() {
+    let mut window = with_fine_base();
+    let at_first = entries(&window);
+    send(&mut window, Command::from(RegionCommand::Target(RegionTarget::Mask)));
+    let near = |window: &Window, area: f64| {
+        assert!((mask_area(window) - area).abs() < 3e-3, "{} for {area}", mask_area(window));
+    };
+    draw_with(&mut window, "Rectangle");
+    stroke(&mut window, dvec2(0.1, 0.1), dvec2(0.5, 0.4));
+    settle(&mut window);
+    near(&window, 0.12);
+    press(&mut window, dvec2(0.6, 0.1), Modifiers::SHIFT);
+    move_to(&mut window, dvec2(0.8, 0.15));
+    release(&mut window, dvec2(0.8, 0.15));
+    settle(&mut window);
+    near(&window, 0.16);
+    draw_with(&mut window, "Circle");
+    press(&mut window, dvec2(0.3, 0.25), Modifiers::ALT);
+    move_to(&mut window, dvec2(0.4, 0.25));
+    release(&mut window, dvec2(0.4, 0.25));
+    settle(&mut window);
+    let disc = std::f64::consts::PI * 0.01;
+    near(&window, 0.16 - disc);
+    assert_eq!(entries(&window), at_first + 3, "each is one entry");
+    draw_with(&mut window, "Fill");
+    click(&mut window, dvec2(0.3, 0.25), Modifiers::NONE);
+    settle(&mut window);
+    near(&window, 0.16);
+    click(&mut window, dvec2(0.7, 0.2), Modifiers::ALT);
+    settle(&mut window);
+    near(&window, 0.12);
+    click(&mut window, dvec2(0.9, 0.9), Modifiers::NONE);
+    assert!(notice(&window).contains("no outline of the region encloses this place"), "{}", notice(&window));
+    assert_eq!(entries(&window), at_first + 5);
+    draw_with(&mut window, "Lasso");
+    press(&mut window, dvec2(0.6, 0.6), Modifiers::NONE);
+    for corner in [dvec2(0.8, 0.6), dvec2(0.8, 0.8), dvec2(0.6, 0.8)] {
+        move_to(&mut window, corner);
+    }
+    release(&mut window, dvec2(0.6, 0.8));
+    settle(&mut window);
+    near(&window, 0.16);
+    press(&mut window, dvec2(0.1, 0.6), Modifiers::NONE);
+    move_to(&mut window, dvec2(0.3, 0.9));
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    release(&mut window, dvec2(0.3, 0.9));
+    assert_eq!(entries(&window), at_first + 6, "Escape gives a lasso up");
+}
+
+#[test]
+fn a_hole_of_a_keep_out_region_is_filled_without_choosing_the_region() {
+    let mut window = with_fine_base();
+    send(&mut window, Command::from(RegionCommand::Target(RegionTarget::KeepOut)));
+    let area = |window: &Window| {
+        let regions = &settings(window).paths.keep_out;
+        regions.iter().map(|region| region.mask.area()).sum::<f64>()
+    };
+    draw_with(&mut window, "Rectangle");
+    stroke(&mut window, dvec2(0.2, 0.2), dvec2(0.6, 0.6));
+    settle(&mut window);
+    press(&mut window, dvec2(0.3, 0.3), Modifiers::ALT);
+    move_to(&mut window, dvec2(0.4, 0.4));
+    release(&mut window, dvec2(0.4, 0.4));
+    settle(&mut window);
+    assert!((area(&window) - 0.15).abs() < 3e-3, "{}", area(&window));
+    send(&mut window, Command::from(RegionCommand::KeepOut(None)));
+    draw_with(&mut window, "Fill");
+    click(&mut window, dvec2(0.35, 0.35), Modifiers::NONE);
+    settle(&mut window);
+    assert!((area(&window) - 0.16).abs() < 3e-3, "{}", area(&window));
+    assert_eq!(settings(&window).paths.keep_out.len(), 1);
+}
+
 fn draw_polygon(window: &mut Window, corners: &[DVec2]) {
     for &corner in corners {
         click(window, corner, Modifiers::NONE);
@@ -76,14 +158,14 @@ fn a_mask_is_drawn_as_a_polygon_painted_and_cut_and_each_is_one_entry() {
     let fine = level_at(&window, outside);
     click_button(&mut window, "Draw mask");
     assert_eq!(window.state().tools().tool, &REGION);
-    choose(&mut window, "Polygon");
+    draw_with(&mut window, "Polygon");
     draw_polygon(&mut window, &SQUARE);
     assert!((mask_area(&window) - 0.09).abs() < 2e-3, "{}", mask_area(&window));
     assert_eq!(entries(&window), at_first + 1);
     assert_eq!(level_at(&window, inside), fine);
     assert!(level_at(&window, outside) < fine, "the layer counts inside only");
 
-    choose(&mut window, "Brush");
+    draw_with(&mut window, "Brush");
     let radius = window.state().tools().radius;
     stroke(&mut window, dvec2(0.7, 0.8), dvec2(0.9, 0.8));
     settle(&mut window);
@@ -129,7 +211,7 @@ fn escape_takes_the_polygon_and_the_stroke_back() {
     let mut window = with_fine_base();
     let before = entries(&window);
     key(&mut window, Modifiers::NONE, Key::M);
-    choose(&mut window, "Polygon");
+    draw_with(&mut window, "Polygon");
     for corner in &SQUARE[..3] {
         click(&mut window, *corner, Modifiers::NONE);
     }
@@ -139,7 +221,7 @@ fn escape_takes_the_polygon_and_the_stroke_back() {
     assert!(notice(&window).contains("three corners"), "{}", notice(&window));
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
-    choose(&mut window, "Brush");
+    draw_with(&mut window, "Brush");
     press(&mut window, SQUARE[0], Modifiers::NONE);
     move_to(&mut window, SQUARE[2]);
     key(&mut window, Modifiers::NONE, Key::Escape);
@@ -164,7 +246,7 @@ fn keep_out_regions_are_drawn_and_paths_are_found_around_them() {
     let mut window = with_fine_base();
     open_tab(&mut window, Tab::Paths);
     click_button(&mut window, "Draw keep-out region");
-    choose(&mut window, "Polygon");
+    draw_with(&mut window, "Polygon");
     draw_polygon(&mut window, &SQUARE);
     let regions = |window: &Window| -> Vec<(String, f64)> {
         let regions = settings(window).paths.keep_out.iter();
@@ -196,7 +278,7 @@ fn shapes_are_drawn_with_a_layer_of_their_own() {
     let mut window = with_fine_base();
     let before = entries(&window);
     send(&mut window, Command::from(RegionCommand::Target(RegionTarget::Shapes)));
-    choose(&mut window, "Line");
+    draw_with(&mut window, "Line");
     for corner in &SQUARE[..2] {
         click(&mut window, *corner, Modifiers::NONE);
     }
@@ -206,16 +288,16 @@ fn shapes_are_drawn_with_a_layer_of_their_own() {
     assert_eq!(shapes(active(&window)).map(|list| list.lines.len()), Some(1));
     assert_eq!((settings(&window).layers.len(), entries(&window)), (4, before + 1));
     assert!(triangles(&window) > coarse, "the mesh follows");
-    choose(&mut window, "Point");
+    draw_with(&mut window, "Point");
     click(&mut window, dvec2(0.8, 0.8), Modifiers::NONE);
     settle(&mut window);
-    choose(&mut window, "Polygon");
+    draw_with(&mut window, "Polygon");
     draw_polygon(&mut window, &SQUARE.map(|corner| corner + 0.3));
     let list = shapes(active(&window)).unwrap().clone();
     assert_eq!((list.points.len(), list.lines.len(), list.polygons.len()), (1, 1, 1));
     assert_eq!((settings(&window).layers.len(), entries(&window)), (4, before + 3));
     choose(&mut window, "Cut");
-    choose(&mut window, "Brush");
+    draw_with(&mut window, "Brush");
     stroke(&mut window, dvec2(0.35, 0.1), dvec2(0.35, 0.3));
     settle(&mut window);
     assert_eq!(shapes(active(&window)).map(|list| list.lines.len()), Some(2), "the line is cut in two");

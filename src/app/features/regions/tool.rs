@@ -9,7 +9,8 @@ use meshbrush_core::document::DrawnShape;
 use meshbrush_kit::kit::command::{Command, EditCommand};
 use meshbrush_kit::kit::tools::{ToolSettings, Tools, first_settings};
 use meshbrush_kit::kit::{
-    DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
+    DraggedShape, DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
+    press_shape,
 };
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
@@ -20,6 +21,10 @@ pub static REGION: ToolSpec = ToolSpec {
     options: &REGION_OPTIONS,
     hint: |state| match state.tools.settings::<RegionTool>().shape() {
         RegionShape::Brush => BRUSH_HINT,
+        RegionShape::Rectangle => RECTANGLE_HINT,
+        RegionShape::Circle => CIRCLE_HINT,
+        RegionShape::Lasso => LASSO_HINT,
+        RegionShape::Fill => FILL_HINT,
         RegionShape::Polygon => POLYGON_HINT,
         RegionShape::Line => LINE_HINT,
         RegionShape::Point => POINT_HINT,
@@ -41,6 +46,28 @@ const BRUSH_HINT: &[Hint] = &[
     Text("the opposite"),
     KeyOf("undo"),
     Text("undo"),
+];
+const RECTANGLE_HINT: &[Hint] = &[
+    Text("Drag from corner to corner"),
+    HintKey("Shift"),
+    Text("square"),
+    HintKey("Alt"),
+    Text("cuts instead of adding, or the opposite"),
+];
+const CIRCLE_HINT: &[Hint] = &[
+    Text("Drag from the centre to the rim"),
+    HintKey("Alt"),
+    Text("cuts instead of adding, or the opposite"),
+];
+const LASSO_HINT: &[Hint] = &[
+    Text("Drag around the area: the end joins the beginning"),
+    HintKey("Alt"),
+    Text("cuts instead of adding, or the opposite"),
+];
+const FILL_HINT: &[Hint] = &[
+    Text("Click in a hole of the region to fill it"),
+    HintKey("Alt"),
+    Text("click removes the part under the pointer, or the opposite"),
 ];
 const POLYGON_HINT: &[Hint] = &[
     Text("Click each corner; drag one to move it"),
@@ -86,11 +113,15 @@ impl ToolSettings for RegionTool {
 impl RegionTool {
     /// What it draws with: lines and points only among shapes, and what cuts is an area.
     pub fn shape(&self) -> RegionShape {
-        let areas_only = self.target != RegionTarget::Shapes || self.cuts;
         match self.chosen_shape {
-            RegionShape::Line | RegionShape::Point if areas_only => RegionShape::Polygon,
+            RegionShape::Line | RegionShape::Point if !self.has_lines_and_points() => RegionShape::Polygon,
             shape => shape,
         }
+    }
+
+    /// Returns whether lines and points can be drawn, and not only areas.
+    pub fn has_lines_and_points(&self) -> bool {
+        self.target == RegionTarget::Shapes && !self.cuts
     }
 }
 
@@ -105,13 +136,18 @@ static COMMANDS: DrawingCommands = DrawingCommands {
     close: || Command::from(RegionCommand::Close),
 };
 
-/// With the brush, Alt swaps adding and cutting.
+/// Alt swaps adding and cutting.
 fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
     let tool = pointer.tools.settings::<RegionTool>();
+    let adds = tool.cuts == press.modifiers.alt;
     match tool.shape() {
-        RegionShape::Brush => {
-            let adds = tool.cuts == press.modifiers.alt;
-            Some(press_brush(&COMMANDS, press, pointer, adds, commands))
+        RegionShape::Brush => Some(press_brush(&COMMANDS, press, pointer, adds, commands)),
+        RegionShape::Rectangle => Some(press_shape(&COMMANDS, DraggedShape::Rectangle, press, adds)),
+        RegionShape::Circle => Some(press_shape(&COMMANDS, DraggedShape::Circle, press, adds)),
+        RegionShape::Lasso => Some(press_shape(&COMMANDS, DraggedShape::Lasso, press, adds)),
+        RegionShape::Fill => {
+            commands.push(Command::from(RegionCommand::Fill(pointer.world(press.at), adds)));
+            None
         }
         RegionShape::Polygon | RegionShape::Line => {
             Some(press_corner(&COMMANDS, press, pointer, &tool.corners, commands))
@@ -137,7 +173,7 @@ fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
     let begin = match tool.shape() {
         RegionShape::Polygon => "Begin a polygon here",
         RegionShape::Line => "Begin a line here",
-        RegionShape::Brush | RegionShape::Point => return entries,
+        _ => return entries,
     };
     entries.push((begin, Command::from(RegionCommand::AddCorner(point))));
     entries

@@ -74,15 +74,13 @@ impl MeasureRows<'_> {
         PlaceRow { label: name_of(measure), value, help: help_of(measure), place: at, inside, size }
             .show(ui, commands);
         let overlay = FieldOverlay::of_measure(measure);
-        let room = ui.available_width() - if overlay.is_some() { metrics::ROW + metrics::GRID } else { 0.0 };
+        let room = ui.available_width() - (metrics::ROW + metrics::GRID);
         ui.horizontal_top(|ui| {
             let bars = ui.allocate_ui(vec2(room, Histogram::HEIGHT), |ui| self.histogram(ui));
             if let Some(place) = bars.inner {
                 commands.push(Command::from(ViewCommand::GoTo(place.at, place.size)));
             }
-            if let Some(overlay) = overlay {
-                overlay_button(ui, overlay, state, commands);
-            }
+            overlay_button(ui, overlay, state, commands);
         });
         ui.add_space(6.0);
     }

@@ -9,6 +9,7 @@ pub static EXPORT_STEPS: FileKind = FileKind {
     title: "Export steps",
     act: FileAct::Export,
     endings: || vec!["svg", "png"],
+    formats: || vec![("svg", "A vector drawing of each step"), ("png", "A picture of each step")],
     contents: "Drawings",
     folder: "exports",
     suffix: " step",

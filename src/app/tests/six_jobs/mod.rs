@@ -1,4 +1,4 @@
-//! Six jobs done by the pointer at 1440 × 900: no control must be scrolled to, and the clicks are counted.
+//! Jobs done by the pointer at 1440 × 900: no control must be scrolled to, and the clicks are counted.
 //! With one column of sections at the right, the same jobs took 64 clicks and 20 scrolls; now they take 65
 //! and none. `MESHBRUSH_SCREENS=/tmp/screens` leaves a picture of each there.
 
@@ -13,7 +13,7 @@ use glam::dvec2;
 
 use super::{click, folder, key, level_at, send, settings, stroke, wait_for_jobs, wait_until};
 use hands::Hands;
-use meshbrush_core::layers::RasterLayer;
+use meshbrush_core::layers::{Depths, RasterLayer};
 use meshbrush_kit::kit::Tab;
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 
@@ -148,4 +148,43 @@ fn a_point_is_inspected_and_pinned() {
     hands.press(Role::Button, "Copy table");
     hands.press(Role::Button, "Parent");
     hands.took(6);
+}
+
+/// Types a path into the question for a file, and waits until `is_done`.
+fn give_file(hands: &mut Hands, file: &std::path::Path, is_done: impl Fn(&super::Window) -> bool) {
+    key(&mut hands.window, Modifiers::COMMAND, Key::A);
+    hands.window.event(Event::Text(file.to_str().unwrap().to_owned()));
+    hands.window.run();
+    key(&mut hands.window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut hands.window, is_done);
+}
+
+#[test]
+fn a_coast_becomes_a_file_for_a_solver_from_nothing() {
+    let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let file = folder("six-jobs", "solver").join("sea.14");
+    let asks = |window: &super::Window| window.query_by_label("What is the file to be?").is_some();
+    let mut hands = Hands::new();
+    hands.menu("File", "Open… Ctrl+O");
+    give_file(&mut hands, &assets.join("celtic_sea.geojson"), asks);
+    hands.press_in_list("Open");
+    wait_until(&mut hands.window, |window| settings(window).domain.projection.is_some());
+    hands.menu("File", "Add data… Ctrl+Shift+D");
+    give_file(&mut hands, &assets.join("celtic_sea_depths.tif"), asks);
+    hands.act(|window| window.get_by_role_and_label(Role::RadioButton, "Depth of water").click());
+    hands.press_in_list("Add");
+    wait_until(&mut hands.window, |window| {
+        settings(window).layers.iter().any(|layer| layer.kind.is::<Depths>())
+    });
+    hands.enter("h_min value", "4000");
+    hands.enter("h_max value", "40000");
+    hands.press(Role::CheckBox, "Limit gradation");
+    wait_until(&mut hands.window, |window| window.state().session().derived().is_some());
+    hands.menu("File", "Export mesh… Ctrl+E");
+    give_file(&mut hands, &file, |window| !window.state().background.rows(true).is_empty());
+    wait_until(&mut hands.window, |window| window.state().background.rows(true).is_empty());
+    let written = fs::read_to_string(&file).unwrap();
+    let open = written.lines().find(|line| line.contains("open boundaries")).unwrap();
+    assert!(!open.starts_with('0'), "{open}");
+    hands.took(12);
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::super::atomic::{Draft, obstacle, put_in_place};
 use super::super::layers::{GridKeys, ListsInPlace, MOST_IN_PLACE, PaintKeys, SavedLayer};
 use super::super::project::{self, Project};
-use super::super::settings::{SavedKeepOut, SavedSettings};
+use super::super::settings::{SavedKeepOut, SavedOutput, SavedSettings};
 use super::super::{Meter, asc, geojson, shapes, threats};
 use super::{MOST_BYTES, to_text, too_long};
 use meshbrush_core::document::{KeepOut, Settings};
@@ -55,6 +55,11 @@ impl RecipeFiles {
     /// Returns the recipe of a document, at `path`. Files beside it are named after it and the layers:
     /// `coast.toml` has `coast-slopes.asc`. Blank paint layers, which ask for nothing, are left out.
     pub fn new(project: &Project, path: &Path) -> Self {
+        Self::with_outputs(project, path, Vec::new())
+    }
+
+    /// Returns the recipe of a document as [`Self::new`] does, with the files that it asks for.
+    pub fn with_outputs(project: &Project, path: &Path, output: Vec<SavedOutput>) -> Self {
         let mut plan = Plan::new(path);
         let Project { settings, paint } = project;
         let region = settings.domain.region().map(|region| {
@@ -81,7 +86,7 @@ impl RecipeFiles {
         }
         let keep_out = settings.paths.keep_out.iter().map(|region| plan.keep_out(region)).collect();
         let region = region.as_deref().unwrap_or_default();
-        let recipe = SavedSettings::of(settings, region, layers, keep_out);
+        let recipe = SavedSettings { output, ..SavedSettings::of(settings, region, layers, keep_out) };
         plan.files.push((path.to_owned(), ExportContent::Recipe(to_text(&recipe))));
         Self { files: plan.files, without_background: settings.background.is_some() }
     }

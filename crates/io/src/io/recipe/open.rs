@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use super::super::Meter;
-use super::super::settings::SavedParts;
+use super::super::settings::{SavedOutput, SavedParts};
 use super::{LoadError, Loaded, Loading, Recipe, read};
 use meshbrush_core::document::Document;
 use meshbrush_core::domain::BoundaryTreatment;
@@ -14,6 +14,8 @@ pub struct OpenedRecipe {
     /// Notes for a person, a sentence each: layers without any target, and settings of the recipe that a
     /// document does not have.
     pub notes: Vec<String>,
+    /// The files that the recipe asks for, with their paths.
+    pub outputs: Vec<SavedOutput>,
 }
 
 /// Reads a recipe and the files that it names into a document.
@@ -28,7 +30,8 @@ pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
     notes.extend(not_held(&recipe, settings.boundary));
     let document = Document::new(settings.with_limits_of_the_grid()?, Some(paint));
     let unsuited = |error| LoadError::Unsuited(format!("{}: {error}", path.display()));
-    Ok(OpenedRecipe { document: document.map_err(unsuited)?, notes })
+    let outputs = recipe.settings.output.clone();
+    Ok(OpenedRecipe { document: document.map_err(unsuited)?, notes, outputs })
 }
 
 /// Returns sentences about the settings of a recipe that a document does not have.
@@ -38,9 +41,5 @@ fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item 
     let parts = (removes_parts && !is_fitted).then(|| {
         "The window keeps all parts of a mesh that is not fitted to polygons: `parts` is left out.".to_owned()
     });
-    let outputs = (!recipe.settings.output.is_empty()).then(|| {
-        let file = recipe.file().display();
-        format!("The window writes no files of [[output]]; `meshbrush mesh {file}` does.")
-    });
-    [parts, outputs].into_iter().flatten()
+    parts.into_iter()
 }

@@ -244,7 +244,7 @@ pub struct SavedPins {
 }
 
 /// `[[output]]`
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SavedOutput {
     /// The file, whose ending decides the format.

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::CommandSet;
-use crate::kit::tools::{BrushMode, PaintKind, PenEffect};
+use crate::kit::tools::{BrushMode, PaintKind, PenResponse};
 
 /// One thing to do with strokes and the brush.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,8 +34,16 @@ pub enum BrushCommand {
     MirrorX(bool),
     /// Repeats strokes on the other side: above and below.
     MirrorY(bool),
-    /// Chooses what the pressure of a pen changes.
-    PenEffect(PenEffect),
+    /// Sets what the pressure of a pen changes, and how.
+    PenResponse(PenResponse),
+    /// Selects the brush, and makes it that of a preset, by its number from 0.
+    UsePreset(usize),
+    /// Keeps the brush as a preset.
+    KeepPreset,
+    /// Gives a preset another name.
+    RenamePreset(usize, String),
+    /// Removes a preset.
+    RemovePreset(usize),
     /// Notes the pressure of the pen, 0 to 1, or that it was lifted.
     Pen(Option<f64>),
     /// Begins a stroke at a point.

@@ -8,6 +8,7 @@ use crate::kit::FileRequest;
 use crate::kit::background::WorkId;
 use crate::kit::home::Home;
 use meshbrush_core::document::{Document, Example};
+use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_ui::widgets::ConfirmAnswer;
 
 /// One thing to do with documents and their files.
@@ -59,6 +60,12 @@ pub enum FileCommand {
     ExportAs(PathBuf),
     /// Writes the mesh; the ending chooses the format.
     Export(PathBuf),
+    /// Takes the files that a recipe names as those that the mesh is exported to.
+    SetExports(Vec<SavedOutput>),
+    /// Writes the mesh to all files that it is exported to, and asks before others are replaced.
+    ExportAgain,
+    /// Writes the mesh to all files that it is exported to.
+    ExportAll,
     /// Cancels the reading or writing of a file.
     CancelWork(WorkId),
     /// Opens the unsaved work that an earlier run left behind and that is offered now.

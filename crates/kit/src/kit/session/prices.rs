@@ -2,6 +2,7 @@
 
 use super::Session;
 use crate::kit::clock::Instant;
+use crate::kit::size_change::SizeEffect;
 use crate::kit::slices::SLICE;
 use meshbrush_core::document::{Price, Pricer, Setting, SettingKind};
 use meshbrush_core::paint::StrokePlan;
@@ -22,11 +23,9 @@ impl Session {
         &self.guards.stroke
     }
 
-    /// Returns by how many triangles the last edit of the size changed the mesh, if it was one of these
-    /// settings.
-    pub fn last_size_change(&self, kinds: &[SettingKind]) -> Option<i64> {
-        let before = self.guards.size.triangles_before(kinds)?;
-        Some(self.mesh().triangle_count() as i64 - before as i64)
+    /// Returns what the last edit of the size did to the mesh, if it was one of these settings.
+    pub fn last_size_effect(&self, kinds: &[SettingKind]) -> Option<SizeEffect> {
+        self.guards.size.last_effect(kinds, self.document())
     }
 
     /// Considers a setting, or none: its price is computed in the coming frames.

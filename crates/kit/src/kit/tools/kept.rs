@@ -17,12 +17,17 @@ impl Tools {
     /// Sets the brush as it was kept. A value that no slider has changes nothing.
     pub fn take_brush(&mut self, kept: KeptBrush) {
         let [radius, paint_strength, erase_strength, hardness, risk, smoothing] = kept;
-        let is_positive = [radius, paint_strength, erase_strength].iter().all(|&value| value > 0.0);
-        if !is_positive || !kept.iter().all(|value| (0.0..=1.0).contains(value)) {
+        if !Self::is_brush(&kept) {
             return;
         }
         self.radius = radius * self.extent;
         (self.paint_strength, self.erase_strength) = (paint_strength, erase_strength);
         (self.hardness, self.risk, self.smoothing) = (hardness, risk, smoothing);
+    }
+
+    /// Returns whether a brush can have these settings.
+    pub(super) fn is_brush(kept: &KeptBrush) -> bool {
+        let is_positive = kept[..3].iter().all(|&value| value > 0.0);
+        is_positive && kept.iter().all(|value| (0.0..=1.0).contains(value))
     }
 }

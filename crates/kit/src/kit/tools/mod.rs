@@ -9,6 +9,7 @@ mod kept;
 mod paint;
 mod pan;
 mod pen;
+mod presets;
 mod settings;
 
 use std::collections::BTreeMap;
@@ -18,7 +19,8 @@ use glam::DVec2;
 pub use kept::KeptBrush;
 pub use paint::{BrushMode, PaintKind};
 pub use pan::{PAN, move_view};
-pub use pen::{Pen, PenEffect};
+pub use pen::{Pen, PenResponse};
+pub use presets::{BrushPreset, KeptPreset, kept_pen, pen_of_kept};
 pub use settings::{AnySettings, ToolSettings, first_settings};
 
 use crate::kit::{FrameState, Tool};
@@ -73,6 +75,8 @@ pub struct Tools {
     pub mirrored: [bool; 2],
     /// The pen, where there is one.
     pub pen: Pen,
+    /// Brushes that a person keeps under a name.
+    presets: Vec<BrushPreset>,
     /// The end of the last stroke, in world units.
     pub last_painted: Option<DVec2>,
     /// The settings of tools that only their features know.
@@ -105,6 +109,7 @@ impl Tools {
             smoothing: 0.0,
             mirrored: [false; 2],
             pen: Pen::default(),
+            presets: BrushPreset::first(),
             last_painted: None,
             settings: SettingsOfTools::new(settings.map(|first| first())),
             was_selected: false,
@@ -194,6 +199,7 @@ impl Tools {
             risk: self.risk,
             smoothing: self.smoothing,
             pen: self.pen,
+            presets: self.presets,
             uses: self.uses,
             ..Self::for_domain(self.all, extent, h_min)
         }

@@ -37,6 +37,8 @@ pub enum FieldOverlay {
     TargetRatio,
     /// The largest time step of each triangle.
     TimeStep,
+    /// The triangles at the nodes of each triangle.
+    Valence,
 }
 
 impl FieldOverlay {
@@ -58,18 +60,19 @@ impl FieldOverlay {
         Self::EdgeRatio,
         Self::TargetRatio,
         Self::TimeStep,
+        Self::Valence,
     ];
 
-    /// Returns the overlay of a measure; `None` of one of nodes.
-    pub fn of_measure(measure: QualityMeasure) -> Option<Self> {
-        Some(match measure {
+    /// Returns the overlay of a measure.
+    pub fn of_measure(measure: QualityMeasure) -> Self {
+        match measure {
             QualityMeasure::SmallestAngle => Self::SmallestAngle,
             QualityMeasure::LargestAngle => Self::LargestAngle,
             QualityMeasure::EdgeRatio => Self::EdgeRatio,
             QualityMeasure::TargetRatio => Self::TargetRatio,
             QualityMeasure::TimeStep => Self::TimeStep,
-            QualityMeasure::Valence => return None,
-        })
+            QualityMeasure::Valence => Self::Valence,
+        }
     }
 
     /// Returns the name of the choice in the list of the panel.
@@ -91,6 +94,7 @@ impl FieldOverlay {
             Self::EdgeRatio => "Edge ratio",
             Self::TargetRatio => "Longest edge / h̄",
             Self::TimeStep => "Time step",
+            Self::Valence => "Triangles at a node",
         }
     }
 
@@ -113,6 +117,7 @@ impl FieldOverlay {
             Self::EdgeRatio => "Overlay edge ratio",
             Self::TargetRatio => "Overlay longest edge / h̄",
             Self::TimeStep => "Overlay time step",
+            Self::Valence => "Overlay triangles at a node",
         }
     }
 }

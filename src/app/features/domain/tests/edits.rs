@@ -7,9 +7,9 @@ use glam::{DVec2, dvec2};
 
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::tests::{
-    FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, open_tab,
-    press, release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until,
-    window, window_of,
+    FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, notice, open_section,
+    open_tab, press, release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice,
+    wait_until, window, window_of,
 };
 use meshbrush_core::document::{Example, Setting, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
@@ -18,13 +18,44 @@ use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Location;
 
+/// Chooses a shape in the list of the strip.
+fn cut_with(window: &mut Window, shape: &str) {
+    window.get_by_role_and_label(Role::ComboBox, "Cut with").click();
+    window.run();
+    window.get_all_by_role_and_label(Role::Button, shape).last().unwrap().click();
+    window.run();
+}
+
+#[test]
+fn circle_and_lasso_cut_and_a_fill_adds_what_they_left() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::D);
+    cut_with(&mut window, "Circle");
+    stroke(&mut window, dvec2(0.5, 0.5), dvec2(0.7, 0.5));
+    let disc = std::f64::consts::PI * 0.04;
+    assert!((area(&window) - (1.0 - disc)).abs() < 0.002, "{}", area(&window));
+    cut_with(&mut window, "Lasso");
+    let corners = [dvec2(0.1, 0.1), dvec2(0.2, 0.1), dvec2(0.2, 0.2), dvec2(0.1, 0.2)];
+    press(&mut window, corners[0], Modifiers::NONE);
+    corners[1..].iter().for_each(|&corner| move_to(&mut window, corner));
+    release(&mut window, corners[3]);
+    assert!((area(&window) - (1.0 - disc - 0.01)).abs() < 0.002, "{}", area(&window));
+    assert_eq!(entries(&window), 2);
+    cut_with(&mut window, "Fill");
+    click(&mut window, dvec2(0.5, 0.5), Modifiers::ALT);
+    assert!((area(&window) - 0.99).abs() < 1e-3, "Alt adds: {}", area(&window));
+    assert_eq!(entries(&window), 3);
+    click(&mut window, dvec2(0.5, 0.5), Modifiers::ALT);
+    assert_eq!(entries(&window), 3, "there is no hole any more");
+    assert!(notice(&window).contains("in no hole"), "{}", notice(&window));
+}
+
 #[test]
 fn a_frame_drawn_with_the_domain_tool_becomes_the_domain() {
     let mut window = window();
     let before = fingerprint(&window);
     key(&mut window, Modifiers::NONE, Key::D);
-    window.get_by_role_and_label(Role::RadioButton, "Frame").click();
-    window.run();
+    cut_with(&mut window, "Frame");
     stroke(&mut window, dvec2(-0.05, 0.25), dvec2(0.5, 0.8));
     let bounds = settings(&window).domain.bounds;
     assert!(bounds.min.distance(dvec2(-0.05, 0.25)) < 0.003, "{bounds:?}");
@@ -56,14 +87,13 @@ fn the_domain_is_cut_with_brush_rectangle_and_polygon_and_each_is_one_entry() {
     assert_eq!(window.state().session().mesh().locate(dvec2(0.45, 0.6)), Location::OutsideDomain);
     let brushed = fingerprint(&window);
 
-    window.get_by_role_and_label(Role::RadioButton, "Rectangle").click();
-    window.run();
+    cut_with(&mut window, "Rectangle");
     let whole = area(&window);
     stroke(&mut window, dvec2(0.7, 0.1), dvec2(0.9, 0.3));
     assert!((area(&window) - (whole - 0.04)).abs() < 0.004, "{}", area(&window));
     assert_eq!(entries(&window), 2);
 
-    window.get_by_role_and_label(Role::RadioButton, "Polygon").click();
+    cut_with(&mut window, "Polygon");
     window.get_by_role_and_label(Role::RadioButton, "Add").click();
     window.run();
     let smaller = area(&window);

@@ -13,7 +13,7 @@ use crate::app::tests::{
 use meshbrush_core::field::RiskToDiameter as _;
 use meshbrush_core::layers::LayerKind;
 use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, LayerCommand};
-use meshbrush_kit::kit::tools::{BrushMode, PaintKind, PenEffect};
+use meshbrush_kit::kit::tools::{BrushMode, PaintKind, PenResponse};
 use meshbrush_ui::widgets::format;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
@@ -199,6 +199,40 @@ fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
 }
 
 #[test]
+fn what_mirrors_strokes_is_on_the_strip_and_stops_with_a_click() {
+    let mut window = window();
+    assert!(window.query_by_role_and_label(Role::CheckBox, "Mirrored x").is_none());
+    brush(&mut window, BrushCommand::MirrorX(true));
+    brush(&mut window, BrushCommand::MirrorY(true));
+    window.get_by_role_and_label(Role::CheckBox, "Mirrored x, y").click();
+    window.run();
+    assert_eq!(window.state().tools().mirrored, [false; 2]);
+}
+
+#[test]
+fn a_preset_is_kept_named_used_and_removed() {
+    let mut window = window();
+    brush(&mut window, BrushCommand::Hardness(0.21));
+    open_popup(&mut window, "More options");
+    window.get_by_role_and_label(Role::Button, "Keep the brush as a preset").click();
+    window.run();
+    let name = window.get_by_role_and_label(Role::TextInput, "Name");
+    assert_eq!(name.accesskit_node().value().as_deref(), Some("Brush 1"));
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    brush(&mut window, BrushCommand::UsePreset(1));
+    assert_eq!(window.state().tools().hardness, 1.0, "the hard edge");
+    assert_eq!(window.state().tools().kind, PaintKind::Risk, "it leaves what is painted");
+    brush(&mut window, BrushCommand::UsePreset(3));
+    assert_eq!(window.state().tools().hardness, 0.21);
+    open_popup(&mut window, "More options");
+    window.get_by_role_and_label(Role::Button, "Remove the preset").click();
+    window.run();
+    assert_eq!(window.state().tools().presets().len(), 3);
+    brush(&mut window, BrushCommand::UsePreset(9));
+    assert_eq!(window.state().tools().hardness, 0.21, "there is no such preset");
+}
+
+#[test]
 fn smoothing_ignores_a_trembling_hand_and_ends_where_the_pointer_does() {
     let mut window = window();
     send(&mut window, Command::from(EditCommand::ClearPaint));
@@ -220,9 +254,9 @@ fn smoothing_ignores_a_trembling_hand_and_ends_where_the_pointer_does() {
 fn the_pressure_of_a_pen_changes_the_radius_or_the_strength() {
     let mut window = window();
     send(&mut window, Command::from(EditCommand::ClearPaint));
-    let changes = "What the pressure of the pen changes";
+    let changes = "Pen: strength";
     open_popup(&mut window, "More options");
-    assert!(window.query_by_role_and_label(Role::RadioGroup, changes).is_none(), "no pen yet");
+    assert!(window.query_by_role_and_label(Role::CheckBox, changes).is_none(), "no pen yet");
     key(&mut window, Modifiers::NONE, Key::Escape);
     brush(&mut window, BrushCommand::Hardness(1.0));
     let pressed = |window: &mut Window, at: DVec2, force: f32| {
@@ -239,12 +273,27 @@ fn the_pressure_of_a_pen_changes_the_radius_or_the_strength() {
     let rim = dvec2(0.0, 0.03);
     assert!(risk_at(&window, at) > 0.7 && risk_at(&window, at + rim) == 0.0, "a quarter of the radius");
     open_popup(&mut window, "More options");
-    assert!(window.query_by_role_and_label(Role::RadioGroup, changes).is_some(), "there is a pen");
+    for name in ["Pen: radius", changes] {
+        window.get_by_role_and_label(Role::CheckBox, name).click();
+        window.run();
+    }
     key(&mut window, Modifiers::NONE, Key::Escape);
-    brush(&mut window, BrushCommand::PenEffect(PenEffect::Strength));
     let at = dvec2(0.7, 0.3);
     pressed(&mut window, at, 0.25);
     assert!((risk_at(&window, at + rim) - 0.2).abs() < 1e-3, "a quarter of the strength");
+    send(&mut window, Command::from(EditCommand::ClearPaint));
+    brush(
+        &mut window,
+        BrushCommand::PenResponse(PenResponse {
+            changes_radius: true,
+            changes_strength: true,
+            exponent: 0.5,
+        }),
+    );
+    pressed(&mut window, at, 0.25);
+    assert!((risk_at(&window, at) - 0.4).abs() < 1e-3, "the root of a quarter of the strength");
+    assert_eq!(risk_at(&window, at + 1.2 * rim), 0.0, "and of the radius");
+    brush(&mut window, BrushCommand::PenResponse(PenResponse::default()));
     let at = dvec2(0.3, 0.7);
     stroke(&mut window, at, at);
     assert!((risk_at(&window, at + rim) - 0.8).abs() < 1e-3, "the mouse has no pressure");

@@ -15,7 +15,7 @@ use crate::app::features::paths::Paths;
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
     TALL, Window, click_button, folder, key, move_to, notice, open_menu, press, release, send, set, settings,
-    type_into, wait_for_notice, wait_until, window_of,
+    type_into, value_of, wait_for_notice, wait_until, window_of,
 };
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::path::{Solution, Weights};
@@ -102,6 +102,15 @@ fn the_panel_asks_for_file_and_tolerance() {
     assert_eq!(window.state().features().get::<Paths>().tool.export_tolerance, 0.02);
     assert_eq!(unexplained(&window), [""; 0]);
     click_button(&mut window, "Export path…");
+    window.get_by_role_and_label(Role::ComboBox, "Format").click();
+    window.run();
+    window.get_by_label_contains("navigation programs").click();
+    window.run();
+    assert!(value_of(&window, Role::TextInput, "Path").ends_with(".gpx"), "the name follows the format");
+    window.get_by_role_and_label(Role::ComboBox, "Format").click();
+    window.run();
+    window.get_by_label_contains("QGIS and web maps").click();
+    window.run();
     // The ending is added.
     type_into(&mut window, "Path", file.with_extension("").to_str().unwrap());
     wait_until(&mut window, |window| window.query_by_role_and_label(Role::Button, "Replace").is_some());

@@ -1,0 +1,186 @@
+//! The mesh of a document as files get it: written to one, and measured before it is.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{DomainOnLattice, MeshBoundary};
+use meshbrush_core::earth::Coordinates;
+use meshbrush_core::layers::{NodeDepths, PaintLayers, SizeField};
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::surface::{HeightSource, SurfaceRule};
+use meshbrush_io::io::{
+    DEPTH, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
+};
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::view::{Space, View};
+use meshbrush_mesh::mesh::{Extract, Fingerprint, Mesh, MeshView};
+use meshbrush_render::render::export::ExportFormat;
+use meshbrush_render::render::look::Look;
+use meshbrush_render::render::space_look::SpaceLook;
+use meshbrush_render::scene::NodeHeights;
+
+/// A mesh, and what its files get beside it.
+pub struct MeshExport {
+    format: ExportFormat,
+    mesh: Arc<Mesh>,
+    domain: DomainOnLattice,
+    field: Arc<SizeField>,
+    settings: Settings,
+    paint: PaintLayers,
+    surface: Option<Arc<SurfaceRule>>,
+    look: Look,
+    /// The view in space that a picture shows.
+    space: Option<Space>,
+}
+
+/// What the files of a mesh will have in them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExportFigures {
+    /// Bytes of all files together; `None` of a picture, which is drawn for that.
+    pub bytes: Option<u64>,
+    /// Triangles.
+    pub triangles: usize,
+    /// Nodes.
+    pub nodes: usize,
+    /// How the nodes get their depths; `None` without a layer of depths.
+    pub depths: Option<DepthFigures>,
+    /// Whether an edge of the boundary is open.
+    pub has_open_edge: bool,
+}
+
+/// How the nodes of a mesh get their depths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthFigures {
+    /// The nodes where no layer has a value: they get that of the nearest pixel.
+    pub filled: usize,
+    /// The distance of the farthest of these pixels, in world units.
+    pub farthest: f64,
+}
+
+impl MeshExport {
+    /// Takes the mesh on the screen for files of a format, and the colours of the view for a picture.
+    pub fn of(session: &Session, view: &View, format: ExportFormat) -> Self {
+        let (follower, document) = (session.follower(), session.document());
+        let is_picture = matches!(format, ExportFormat::Png | ExportFormat::Svg);
+        Self {
+            format,
+            mesh: follower.shared_mesh(),
+            domain: follower.domain().clone(),
+            field: follower.shared_field(),
+            settings: follower.settings().clone(),
+            paint: document.paint().clone(),
+            surface: follower.surface().cloned(),
+            look: view.picture_of(document.settings()),
+            space: is_picture.then_some(view.space).filter(|space| space.is_on),
+        }
+    }
+
+    /// Writes the files, and returns their names and the number of triangles.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be written, nodes have no depth, the format cannot hold the mesh, or the work
+    /// was cancelled. Existing files are then unchanged.
+    pub fn write(&self, file: &Path, meter: &Meter) -> io::Result<(Vec<PathBuf>, usize)> {
+        let extract = self.extract();
+        let (values, _) = self.values_at_nodes(extract.view())?;
+        self.with_data(&extract, &values, meter, |placed, data| {
+            let in_space = |space| self.look_in_space(&space, &extract);
+            let look = Look { space: self.space.and_then(in_space), ..self.look.clone() };
+            let files = self.format.write(file, &self.mesh, placed, data, &look, meter)?;
+            Ok((files, extract.triangles().len()))
+        })
+    }
+
+    /// Returns what the files will have in them.
+    ///
+    /// # Errors
+    /// Fails as [`Self::write`] does, except for errors of the file system.
+    pub fn measure(&self, meter: &Meter) -> io::Result<ExportFigures> {
+        let extract = self.extract();
+        let (values, depths) = self.values_at_nodes(extract.view())?;
+        self.with_data(&extract, &values, meter, |placed, data| {
+            let pieces = data.boundary.pieces().list();
+            let is_open = |piece: usize| pieces[piece].boundary_type().is_open();
+            let bytes = match self.format {
+                ExportFormat::Mesh(format) => Some(format.exact_bytes(placed, data, meter)?),
+                _ => None,
+            };
+            Ok(ExportFigures {
+                bytes,
+                triangles: extract.triangles().len(),
+                nodes: extract.nodes().len(),
+                depths,
+                has_open_edge: data.boundary.present().any(is_open),
+            })
+        })
+    }
+
+    fn extract(&self) -> Extract<'static> {
+        let derived = DerivedMesh::new(&self.mesh, &self.domain, &self.settings.derived_cleaning());
+        derived.extract(&self.mesh).into_owned()
+    }
+
+    /// Calls `use_data` with the mesh in the coordinates of its files, and its data.
+    fn with_data<T>(
+        &self,
+        extract: &Extract,
+        values: &[NodeValues],
+        meter: &Meter,
+        use_data: impl FnOnce(&Extract, &MeshData) -> io::Result<T>,
+    ) -> io::Result<T> {
+        let settings = &self.settings;
+        let target_diameter = match self.format.has_targets() {
+            true => self.field.targets_at_nodes(settings.rule, &self.paint, extract, || meter.check())?,
+            false => Vec::new(),
+        };
+        let boundary = MeshBoundary::new(extract, &settings.domain, &settings.boundary_marks);
+        let heights = values.iter().find(|values| values.name == SURFACE).map(|it| &*it.values);
+        // A model in space has lengths along all axes.
+        let is_model = self.format.third_coordinate() == ThirdCoordinate::Model && heights.is_some();
+        let data = MeshData {
+            target_diameter: &target_diameter,
+            quantities: values,
+            heights,
+            boundary: &boundary,
+            parts: &extract.part_numbers(),
+            provenance: &provenance_of(settings, self.mesh.fingerprint(), is_model),
+        };
+        let nodes = settings.domain.nodes_in(&Coordinates::Geographic, extract).filter(|_| !is_model);
+        let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
+        use_data(placed.as_ref().unwrap_or(extract), &data)
+    }
+
+    /// Returns the depths and the heights of surfaces at the nodes, where layers have them and the format
+    /// holds them, and how the nodes get their depths.
+    fn values_at_nodes(&self, mesh: MeshView) -> io::Result<(Vec<NodeValues>, Option<DepthFigures>)> {
+        if !self.format.wants_node_data() {
+            return Ok((Vec::new(), None));
+        }
+        let depths = NodeDepths::of(&self.settings.layers, mesh).transpose().map_err(io::Error::other)?;
+        let figures =
+            depths.as_ref().map(|&NodeDepths { filled, farthest, .. }| DepthFigures { filled, farthest });
+        let depths = depths.map(|depths| (DEPTH, depths.depths));
+        let heights = self.surface.as_ref().map(|rule| (SURFACE, rule.samples().filled_heights(mesh)));
+        let named = |(name, values): (&str, Vec<f64>)| NodeValues { name: name.into(), values };
+        Ok((depths.into_iter().chain(heights).map(named).collect(), figures))
+    }
+
+    /// Returns how a picture looks in space; `None` where no layer has heights.
+    fn look_in_space(&self, space: &Space, extract: &Extract) -> Option<SpaceLook> {
+        let heights = HeightSource::new(self.surface.as_deref(), &self.settings.layers)?;
+        let heights = heights.at_nodes(extract.lattice(), extract.nodes());
+        Some(space.picture(NodeHeights::new(&heights, &[])?, extract.lattice()))
+    }
+}
+
+/// Returns the origin of a mesh, with its coordinates: those of the plane in models.
+fn provenance_of(settings: &Settings, fingerprint: Fingerprint, is_model: bool) -> Provenance {
+    let source = MeshSource::Document(&settings.name);
+    let provenance = Provenance::new(source, fingerprint, "x, y").with_unit(settings.unit);
+    match settings.domain.projection {
+        Some(plane) if is_model => provenance.in_plane(&plane),
+        plane => provenance.in_coordinates(&Coordinates::Geographic, plane),
+    }
+}
