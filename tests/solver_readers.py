@@ -89,17 +89,19 @@ def check_strings(path, strings, pieces, number_of, length_of):
         nodes = strings[number].pop(0)
         if number is not None and number % 10 == 1:
             nodes.append(nodes[0])
-        name = head.split(": ", 1)[1]
-        edges_of.setdefault(name, [number]).extend(zip(nodes, nodes[1:]))
+        # ADCIRC has open pieces that meet as one string, with the names of all.
+        names = tuple(head.split(": ", 1)[1].split(", "))
+        edges_of.setdefault(names, [number]).extend(zip(nodes, nodes[1:]))
         seen |= set(zip(nodes, nodes[1:]))
     assert not any(strings.values()), "a string without a head"
     assert len(seen) == sum(piece["edges"] for piece in pieces), "each edge once"
-    assert edges_of.keys() == {piece["name"] for piece in pieces}, edges_of.keys()
-    for piece in pieces:
-        number, *edges = edges_of[piece["name"]]
-        assert len(edges) == piece["edges"], piece["name"]
-        assert abs(length_of(edges) / piece["length"] - 1) < 1e-9, piece["name"]
-        assert number == number_of(piece), f"{piece['name']}: {number}"
+    of_name = {piece["name"]: piece for piece in pieces}
+    assert sorted(name for names in edges_of for name in names) == sorted(of_name), edges_of.keys()
+    for names, (number, *edges) in edges_of.items():
+        parts = [of_name[name] for name in names]
+        assert len(edges) == sum(piece["edges"] for piece in parts), names
+        assert abs(length_of(edges) / sum(piece["length"] for piece in parts) - 1) < 1e-9, names
+        assert {number} == {number_of(piece) for piece in parts}, f"{names}: {number}"
 
 
 def adcirc_number(piece):

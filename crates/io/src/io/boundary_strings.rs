@@ -8,6 +8,9 @@
 //!   o----- land -----o
 //! ```
 //!
+//! A solver that adds up over the nodes of open strings, as ADCIRC does, gets neighbouring open pieces as one
+//! string ([`BoundaryStrings::with_open_joined`]): a node in two strings would have twice the tide.
+//!
 //! What a piece is follows from its type ([`BoundaryPiece::boundary_type`]). Inflows are open strings in some
 //! formats, and in others strings among those of land.
 
@@ -46,10 +49,12 @@ pub(super) struct BoundaryString {
 }
 
 impl BoundaryString {
-    /// Returns the nodes without the repeated first node of an island.
+    /// Returns the nodes without the repeated first node of an island, and of a loop that is open all around.
     pub(super) fn distinct(&self) -> &[usize] {
+        let (is_loop, last) = (self.nodes.first() == self.nodes.last(), self.nodes.len() - 1);
         match self.kind {
-            StringKind::Island => &self.nodes[..self.nodes.len() - 1],
+            StringKind::Island => &self.nodes[..last],
+            StringKind::Open if is_loop => &self.nodes[..last],
             StringKind::Open | StringKind::Land => &self.nodes,
         }
     }
@@ -99,10 +104,22 @@ impl BoundaryStrings {
             };
             let strings: Vec<BoundaryString> = runs.map(string).collect();
             let is_island = is_hole && is_land_of_one_type(&strings);
-            loops.push((is_hole, numbers.len(), if is_island { vec![island(strings)] } else { strings }));
+            let strings = if is_island { vec![joined(&strings, StringKind::Island)] } else { strings };
+            loops.push((is_hole, numbers.len(), strings));
         }
         loops.sort_by_key(|&(is_hole, edges, _)| (is_hole, std::cmp::Reverse(edges)));
         Ok(Self { loops: loops.into_iter().map(|(_, _, strings)| strings).collect() })
+    }
+
+    /// Joins open strings that follow one another along a loop, so that each open node is in exactly one
+    /// string.
+    pub(super) fn with_open_joined(self) -> Self {
+        let join = |strings: Vec<BoundaryString>| {
+            let runs = strings.chunk_by(|a, b| a.is_open() && b.is_open());
+            runs.map(|run| if run.len() == 1 { run[0].clone() } else { joined(run, StringKind::Open) }).collect()
+        };
+        // A loop begins with an open string after land, so no run goes on at its beginning.
+        Self { loops: self.loops.into_iter().map(join).collect() }
     }
 
     /// Returns all strings.
@@ -212,10 +229,10 @@ fn first_of_string(numbers: &[usize], piece_of: impl Fn(usize) -> (bool, usize))
     places.min_by_key(rank).unwrap_or(0)
 }
 
-/// Joins the strings of a whole hole.
-fn island(strings: Vec<BoundaryString>) -> BoundaryString {
+/// Joins strings that follow one another to one of this kind, with their names.
+fn joined(strings: &[BoundaryString], kind: StringKind) -> BoundaryString {
     let mut names: Vec<&str> = Vec::new();
-    for string in &strings {
+    for string in strings {
         if !names.contains(&&*string.name) {
             names.push(&string.name);
         }
@@ -223,7 +240,7 @@ fn island(strings: Vec<BoundaryString>) -> BoundaryString {
     let name = names.join(", ");
     let inner = strings.iter().flat_map(|string| &string.nodes[1..]);
     let nodes = strings.iter().take(1).map(|string| &string.nodes[0]).chain(inner).copied().collect();
-    BoundaryString { kind: StringKind::Island, boundary_type: strings[0].boundary_type, name, nodes }
+    BoundaryString { kind, boundary_type: strings[0].boundary_type, name, nodes }
 }
 
 /// Fails where the boundary touches itself in a node.

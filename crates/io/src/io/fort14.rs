@@ -4,9 +4,13 @@
 //! line: it has the numbers of triangles and of nodes only. Numbers start at one. Depths are positive
 //! downwards.
 //!
-//! Strings run with the domain on the left: outer boundaries anticlockwise, islands clockwise. Neighbouring
-//! strings share their end node, which counts in both; an island does not repeat its first node. The first
-//! line describes the origin of the mesh.
+//! Strings run with the domain on the left: outer boundaries anticlockwise, islands clockwise. Where open
+//! boundary and land meet, they share their end node, which counts in both; an island does not repeat its
+//! first node. The first line describes the origin of the mesh.
+//!
+//! ADCIRC adds the tide up over its list of open nodes (`gwce.F`), so each of them is in it once: neighbouring
+//! open pieces are one string, with their names after its numbers, and a loop that is open all around does
+//! not repeat its first node.
 //!
 //! Strings that are not open have ADCIRC's number (IBTYPE) of their [`BoundaryType`]: 0 for land, 1 for an
 //! island and 2 for an inflow, where the flow across the boundary is an essential condition and the flow
@@ -40,8 +44,12 @@ const INFLOW: u32 = 2;
 /// # Errors
 /// Fails with the errors of `out`, and where the boundary touches itself in a node.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let dialect =
-        Dialect { format: "fort.14", is_open: BoundaryType::is_open, number_of_closed: adcirc_number };
+    let dialect = Dialect {
+        format: "fort.14",
+        is_open: BoundaryType::is_open,
+        joins_open: true,
+        number_of_closed: adcirc_number,
+    };
     write_dialect(out, mesh, data, &dialect)
 }
 
@@ -51,6 +59,8 @@ pub(super) struct Dialect {
     pub(super) format: &'static str,
     /// Which types are open strings.
     pub(super) is_open: fn(BoundaryType) -> bool,
+    /// Whether open strings that follow one another are written as one.
+    pub(super) joins_open: bool,
     /// The number of a string that is not open.
     pub(super) number_of_closed: fn(&BoundaryString) -> u32,
 }
@@ -63,6 +73,7 @@ pub(super) fn write_dialect(
     dialect: &Dialect,
 ) -> io::Result<()> {
     let strings = BoundaryStrings::new(mesh, data, dialect.format, dialect.is_open)?;
+    let strings = if dialect.joins_open { strings.with_open_joined() } else { strings };
     writeln!(out, "{}", data.provenance.line())?;
     writeln!(out, "{} {}", mesh.triangles().len(), mesh.nodes().len())?;
     write_rows(out, mesh.nodes().len(), |out, node| {

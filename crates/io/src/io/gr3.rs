@@ -2,7 +2,8 @@
 //!
 //! The contents are those of ADCIRC's [`fort14`], but for the boundary: SCHISM reads the type of land as 0 on
 //! the outer boundary and 1 for islands, and takes a given flow at open boundaries. So inflows are open
-//! strings, and how land treats the flow is not written. `hgrid.ll` is the same file in degrees of longitude
+//! strings, and how land treats the flow is not written. Neighbouring open pieces stay strings of their own,
+//! each with its line in `bctides.in`: SCHISM takes a node that is in two of them. `hgrid.ll` is the same file in degrees of longitude
 //! and latitude. A mesh that is known to be in metres or kilometres is refused as `.ll`.
 
 use std::io::{self, Write};
@@ -55,5 +56,10 @@ pub fn write_in_degrees(out: &mut impl Write, mesh: &Extract, data: &MeshData) -
 }
 
 fn dialect(format: &'static str) -> Dialect {
-    Dialect { format, is_open: BoundaryType::lets_water_through, number_of_closed: number_of_land }
+    Dialect {
+        format,
+        is_open: BoundaryType::lets_water_through,
+        joins_open: false,
+        number_of_closed: number_of_land,
+    }
 }
