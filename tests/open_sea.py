@@ -24,7 +24,7 @@ PROGRAM = Path(sys.argv[1]).resolve()
 PROJECTIONS = ["none", "auto", "metres", "merc", "tmerc", "lcc", "stere", "UTM"]
 KINDS = ["box", "coast", "two coasts", "islands", "arc", "land"]
 ROUNDS = 200 if os.environ.get("MESHBRUSH_LONG") else 24
-FILES = ["a.14", "a.gr3", "a.2dm", "a.slf", "a.mesh", "a.msh2", "a.dat"]
+FILES = ["a.14", "a.gr3", "a.2dm", "a.slf", "a.mesh", "a.ww3", "a.dat"]
 # How far a node may be from a side, as a share of the box: edges in a plane follow the curve of a side.
 ON_SIDE = 1e-5
 
@@ -105,7 +105,7 @@ def open_of_mike(path):
     return {int(row[0]) for row in rows if int(row[4]) > 1}
 
 
-def open_of_msh2(path):
+def open_of_ww3(path):
     lines = path.read_text().splitlines()
     start = lines.index("$Elements") + 2
     rows = [line.split() for line in lines[start : start + int(lines[start - 1])]]
@@ -118,7 +118,7 @@ def open_of_fvcom(path):
 
 READERS = {
     **{"a.14": open_of_strings, "a.gr3": open_of_strings, "a.2dm": open_of_2dm, "a.cli": open_of_cli},
-    **{"a.mesh": open_of_mike, "a.msh2": open_of_msh2, "a_obc.dat": open_of_fvcom},
+    **{"a.mesh": open_of_mike, "a.ww3": open_of_ww3, "a_obc.dat": open_of_fvcom},
 }
 # In these, an edge is open if both nodes are: nodes of land of one edge stay closed.
 BY_NODES = {"a.cli", "a.mesh", "a_obc.dat"}

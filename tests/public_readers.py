@@ -25,7 +25,7 @@ import xarray
 import xugrid
 from adcircpy.mesh.fort14 import Fort14
 
-ENDINGS = ["14", "gr3", "nc", "mesh", "msh2"]
+ENDINGS = ["14", "gr3", "nc", "mesh", "ww3"]
 # MIKE's code of a node on land.
 LAND = 1
 
@@ -154,7 +154,7 @@ def check_all(folder, stem, expected, pieces):
     every = {tuple(edge) for edge in np.sort(boundary_edges(expected.cells_dict["triangle"]), axis=1).tolist()}
     assert set().union(*edges_of.values()) == every and sum(map(len, edges_of.values())) == len(every), "every edge once"
     check_mike(folder / f"{stem}.mesh", expected, pieces, edges_of)
-    check_gmsh(folder / f"{stem}.msh2", expected, pieces, edges_of)
+    check_gmsh(folder / f"{stem}.ww3", expected, pieces, edges_of)
     check_adcircpy(folder / f"{stem}.14", expected, pieces, edges_of)
     for path in filter(pathlib.Path.exists, (folder / f"{stem}.{ending}" for ending in ("gr3", "ll"))):
         solver_readers.check_pyschism(path, expected, pieces, solver_readers.schism_number, expected.length_of)

@@ -20,7 +20,7 @@ import svg.path
 import triangle.data
 import trimesh
 
-ENDINGS = ["vtu", "msh", "msh2", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
+ENDINGS = ["vtu", "msh", "msh2", "ww3", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
 TARGET = "0.02 + 0.1*hypot(x - 0.3, y - 0.2)"
 COAST = pathlib.Path(__file__).parent.parent / "assets" / "aegean_sea.geojson"
 CASES = {
@@ -103,8 +103,23 @@ def read_binary_msh(path):
     return found
 
 
-def read_msh2(path, summary):
-    """Gmsh 2.2 for WAVEWATCH III: points at the nodes of the open pieces, and z is the depth, which nobody gave."""
+def read_msh2(path):
+    """Gmsh 2.2: what Gmsh 4.1 has, in the same order."""
+    mesh = meshio.read(path, file_format="gmsh")
+    groups = {name: tuple(map(int, group)) for name, group in mesh.field_data.items()}
+    assert groups.pop("domain") == (1, 2)
+    assert (mesh.cell_data_dict["gmsh:physical"]["triangle"] == 1).all()
+    lines, marks = mesh.cells_dict["line"], mesh.cell_data_dict["gmsh:physical"]["line"]
+    found = Found(mesh.points, mesh.cells_dict["triangle"], mesh.cell_data_dict["level"]["triangle"], lines)
+    found.parts = mesh.cell_data_dict["part"]["triangle"]
+    found.pieces = {name: edge_set(lines[marks == tag]) for name, (tag, _) in groups.items()}
+    assert found.pieces == read_msh(path.with_suffix(".msh")).pieces, "pieces"
+    assert_quantity(found, mesh.point_data["quantity"])
+    return found
+
+
+def read_ww3(path, summary):
+    """Gmsh 2 for WAVEWATCH III: points at the nodes of the open pieces, and z is the depth, which nobody gave."""
     mesh = meshio.read(path, file_format="gmsh")
     found = Found(mesh.points, mesh.cells_dict["triangle"])
     pieces = read_msh(path.with_suffix(".msh")).pieces
@@ -290,7 +305,8 @@ def check_case(program, folder, options):
     readers = {
         "vtu": read_vtu,
         "msh": read_msh,
-        "msh2": lambda path: read_msh2(path, summary),
+        "msh2": read_msh2,
+        "ww3": lambda path: read_ww3(path, summary),
         "obj": read_obj,
         "stl": read_stl,
         "node": read_triangle,

@@ -652,7 +652,7 @@ fn wrong_arguments_are_explained() {
         (
             "mesh -o mesh.xyz",
             2,
-            "use one of .vtu .msh .obj .stl .ply .glb .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .msh2 .dat .svg .png",
+            "use one of .vtu .msh .msh2 .obj .stl .ply .glb .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .ww3 .dat .svg .png",
         ),
         ("mesh -o mesh", 2, "-o mesh: the ending chooses the format; use one of .vtu"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
@@ -827,7 +827,7 @@ fn a_dash_is_standard_input_or_output() {
     }
     assert_fails(&folder, "mesh -o -", 2, "name one with --format, as in --format vtu.");
     assert_fails(&folder, "mesh -o - --format node", 2, "--format node: this format has 4 files");
-    assert_fails(&folder, "mesh -o - --format doc", 2, "--format doc: use one of vtu msh obj");
+    assert_fails(&folder, "mesh -o - --format doc", 2, "--format doc: use one of vtu msh msh22 obj");
     assert_fails(
         &folder,
         "mesh -o - --format vtu --json",
@@ -843,17 +843,22 @@ fn a_dash_is_standard_input_or_output() {
 fn a_name_chooses_among_the_formats_of_an_ending() {
     let folder = Folder::new("cli-format");
     let start = |name: &str| folder.read(name).lines().take(2).collect::<Vec<_>>().join(" ");
-    folder.run("mesh --spacing 0.5 --format msh2 -o ww3.msh -o sea.2dm -o other.txt --quantity depth=9-x");
-    assert_eq!(start("ww3.msh"), "$MeshFormat 2.2 0 8");
-    assert_eq!(start("other.txt"), "$MeshFormat 2.2 0 8");
+    folder.run("mesh --spacing 0.5 --format ww3 -o ww3.msh -o sea.2dm -o other.txt --quantity depth=9-x");
+    // WAVEWATCH III reads whole numbers there.
+    assert_eq!(start("ww3.msh"), "$MeshFormat 2 0 8");
+    assert_eq!(start("other.txt"), "$MeshFormat 2 0 8");
     assert!(start("sea.2dm").starts_with("MESH2D"), "its ending says another format");
     assert!(folder.read("ww3.msh").contains("\n1 0 0 9\n"), "the depth");
-    folder.run("mesh --spacing 0.5 -o usual.msh");
+    folder.run("mesh --spacing 0.5 -o usual.msh -o older.msh2");
     assert_eq!(start("usual.msh"), "$MeshFormat 4.1 0 8");
+    assert_eq!(start("older.msh2"), "$MeshFormat 2.2 0 8");
+    folder.run("mesh --spacing 0.5 --format msh22 -o named.msh");
+    let without_origin = |name: &str| folder.read(name).split("$Comments").next().unwrap().to_owned();
+    assert_eq!(without_origin("named.msh"), without_origin("older.msh2"));
     let ran = folder.run("mesh --spacing 0.5 --format fvcom -o bay_grd.dat");
     assert_eq!((ran.status, start("bay_obc.dat").as_str()), (0, "OBC Node Number = 8 1 1 1"), "{}", ran.err);
     assert!(ran.err.contains("wrote bay_grd.dat") && ran.err.contains("wrote bay_dep.dat"), "{}", ran.err);
-    assert_fails(&folder, "mesh -o a.vtu --format doc", 2, "--format doc: use one of vtu msh obj");
+    assert_fails(&folder, "mesh -o a.vtu --format doc", 2, "--format doc: use one of vtu msh msh22 obj");
     let apart = "mesh --domain 0,0,4,4 --spacing 1 --inside 'max(x,y) <= 2 or min(x,y) >= 2' -o a.14";
     let ran = folder.run(apart);
     let refusal = "fort.14 needs two boundary edges at each boundary node, and at x = 2, y = 2";

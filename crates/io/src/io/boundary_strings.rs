@@ -116,7 +116,8 @@ impl BoundaryStrings {
     pub(super) fn with_open_joined(self) -> Self {
         let join = |strings: Vec<BoundaryString>| {
             let runs = strings.chunk_by(|a, b| a.is_open() && b.is_open());
-            runs.map(|run| if run.len() == 1 { run[0].clone() } else { joined(run, StringKind::Open) }).collect()
+            runs.map(|run| if run.len() == 1 { run[0].clone() } else { joined(run, StringKind::Open) })
+                .collect()
         };
         // A loop begins with an open string after land, so no run goes on at its beginning.
         Self { loops: self.loops.into_iter().map(join).collect() }

@@ -2,14 +2,15 @@
 
 use super::format_spec::{FormatSpec, RasterFormatSpec, ShapeFormatSpec};
 use super::{
-    asc, csv, fort14, fvcom, geojson, geotiff, glb, gpkg, gr3, mike, msh, msh2, netcdf, node, npy, obj, ply,
-    png, selafin, shp, sms, stl, ugrid, vtu,
+    asc, csv, fort14, fvcom, geojson, geotiff, glb, gpkg, gr3, mike, msh, msh22, netcdf, node, npy, obj, ply,
+    png, selafin, shp, sms, stl, ugrid, vtu, ww3,
 };
 
 /// The formats of meshes.
-pub static MESH_FORMATS: [&FormatSpec; 17] = [
+pub static MESH_FORMATS: [&FormatSpec; 18] = [
     &vtu::FORMAT,
     &msh::FORMAT,
+    &msh22::FORMAT,
     &obj::FORMAT,
     &stl::FORMAT,
     &ply::FORMAT,
@@ -23,7 +24,7 @@ pub static MESH_FORMATS: [&FormatSpec; 17] = [
     &ugrid::FORMAT,
     &selafin::FORMAT,
     &mike::FORMAT,
-    &msh2::FORMAT,
+    &ww3::FORMAT,
     &fvcom::FORMAT,
 ];
 

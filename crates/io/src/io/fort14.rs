@@ -8,9 +8,9 @@
 //! boundary and land meet, they share their end node, which counts in both; an island does not repeat its
 //! first node. The first line describes the origin of the mesh.
 //!
-//! ADCIRC adds the tide up over its list of open nodes (`gwce.F`), so each of them is in it once: neighbouring
-//! open pieces are one string, with their names after its numbers, and a loop that is open all around does
-//! not repeat its first node.
+//! ADCIRC adds the tide up over its list of open nodes (`gwce.F`), so each of them is in it once:
+//! neighbouring open pieces are one string, with their names after its numbers, and a loop that is open all
+//! around does not repeat its first node.
 //!
 //! Strings that are not open have ADCIRC's number (IBTYPE) of their [`BoundaryType`]: 0 for land, 1 for an
 //! island and 2 for an inflow, where the flow across the boundary is an essential condition and the flow

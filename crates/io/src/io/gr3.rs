@@ -3,8 +3,9 @@
 //! The contents are those of ADCIRC's [`fort14`], but for the boundary: SCHISM reads the type of land as 0 on
 //! the outer boundary and 1 for islands, and takes a given flow at open boundaries. So inflows are open
 //! strings, and how land treats the flow is not written. Neighbouring open pieces stay strings of their own,
-//! each with its line in `bctides.in`: SCHISM takes a node that is in two of them. `hgrid.ll` is the same file in degrees of longitude
-//! and latitude. A mesh that is known to be in metres or kilometres is refused as `.ll`.
+//! each with its line in `bctides.in`: SCHISM takes a node that is in two of them. `hgrid.ll` is the same
+//! file in degrees of longitude and latitude. A mesh that is known to be in metres or kilometres is refused
+//! as `.ll`.
 
 use std::io::{self, Write};
 

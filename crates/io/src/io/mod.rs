@@ -12,7 +12,7 @@
 //! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj`, `.2dm` and the formats of
 //!   coastal solvers, which start at one.
 //!
-//! The formats of coastal solvers (`fort14`, `gr3`, `selafin`, `mike`, `msh2`, `fvcom`, `ugrid`) have a depth
+//! The formats of coastal solvers (`fort14`, `gr3`, `selafin`, `mike`, `ww3`, `fvcom`, `ugrid`) have a depth
 //! at each node, [`MeshData::depths`], and most of them the boundary as strings of nodes
 //! (`boundary_strings`).
 //!
@@ -58,7 +58,7 @@ pub mod layers;
 pub mod lengths;
 pub mod located;
 pub mod msh;
-pub mod msh2;
+pub mod msh22;
 pub mod netcdf;
 mod netcdf_writer;
 pub mod node;
@@ -100,6 +100,7 @@ pub mod vtu;
 mod wkb;
 mod wkt_projection;
 pub mod world_file;
+pub mod ww3;
 
 pub use atomic::{exists, is_read_only, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;

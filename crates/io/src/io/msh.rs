@@ -26,10 +26,10 @@ pub static FORMAT: FormatSpec = FormatSpec {
 };
 
 /// Gmsh's numbers for an element of two and of three nodes.
-const LINE: i32 = 1;
-const TRIANGLE: i32 = 2;
+pub(super) const LINE: i32 = 1;
+pub(super) const TRIANGLE: i32 = 2;
 /// The tag of the surface and of its physical group.
-const SURFACE: i32 = 1;
+pub(super) const SURFACE: i32 = 1;
 
 /// Writes the mesh with its boundary as text.
 ///
@@ -66,10 +66,15 @@ impl<W: Write> Writer<'_, W> {
     fn write(mut self, mesh: &Extract, data: &MeshData) -> io::Result<()> {
         let curves = Curve::all(mesh, data);
         self.write_head(data)?;
-        self.write_names(data, &curves)?;
+        write_names(self.out, data, &curves)?;
         self.write_entities(mesh, data, &curves)?;
         self.write_nodes(mesh, data)?;
         self.write_elements(mesh, &curves)?;
+        self.write_views(mesh, data, &curves)
+    }
+
+    /// Values of nodes and of elements, the triangles before the edges of curves.
+    fn write_views(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
         for (name, values) in data.node_values() {
             self.write_values("NodeData", name, values.len(), |node| values[node])?;
         }
@@ -98,15 +103,6 @@ impl<W: Write> Writer<'_, W> {
         writeln!(self.out, "$EndComments")
     }
 
-    fn write_names(&mut self, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
-        writeln!(self.out, "$PhysicalNames\n{}", curves.len() + 1)?;
-        for curve in curves {
-            let name = &data.boundary.pieces().list()[curve.piece].name;
-            writeln!(self.out, "1 {} \"{name}\"", curve.tag())?;
-        }
-        writeln!(self.out, "2 {SURFACE} \"domain\"\n$EndPhysicalNames")
-    }
-
     /// A curve for each piece, and the surface that they bound: tag, bounds, physical group, boundary.
     fn write_entities(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
         writeln!(self.out, "$Entities")?;
@@ -117,7 +113,9 @@ impl<W: Write> Writer<'_, W> {
         }
         let boundary: Vec<MshNumber> = curves.iter().map(|curve| Int(curve.tag())).collect();
         let group = [Size(1), Int(SURFACE), Size(curves.len())];
-        let bounds = box_values(&mesh.lattice().bounds(), height_range(data, 0..mesh.nodes().len()));
+        // In degrees the nodes are elsewhere than the lattice.
+        let bounds = Rect::holding(mesh.world_nodes()).unwrap_or_else(|| mesh.lattice().bounds());
+        let bounds = box_values(&bounds, height_range(data, 0..mesh.nodes().len()));
         self.row(&[&[Int(SURFACE)], &bounds[..], &group, &boundary].concat())?;
         self.end("Entities")
     }
@@ -192,6 +190,26 @@ impl<W: Write> Writer<'_, W> {
     }
 }
 
+/// Writes the names of the physical groups.
+pub(super) fn write_names(out: &mut impl Write, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
+    writeln!(out, "$PhysicalNames\n{}", curves.len() + 1)?;
+    for curve in curves {
+        let name = &data.boundary.pieces().list()[curve.piece].name;
+        writeln!(out, "1 {} \"{name}\"", curve.tag())?;
+    }
+    writeln!(out, "2 {SURFACE} \"domain\"\n$EndPhysicalNames")
+}
+
+/// Writes values of nodes and of elements as text: their sections are the same in Gmsh 2.2.
+pub(super) fn write_text_views(
+    out: &mut impl Write,
+    mesh: &Extract,
+    data: &MeshData,
+    curves: &[Curve],
+) -> io::Result<()> {
+    Writer { out, is_binary: false }.write_views(mesh, data, curves)
+}
+
 /// A line of text, or the bytes of the numbers.
 fn write_row(out: &mut impl Write, values: &[MshNumber], is_binary: bool) -> io::Result<()> {
     if is_binary {
@@ -213,9 +231,10 @@ fn write_row(out: &mut impl Write, values: &[MshNumber], is_binary: bool) -> io:
 }
 
 /// The edges of a piece of the boundary.
-struct Curve {
+pub(super) struct Curve {
     piece: usize,
-    edges: Vec<BoundaryEdge>,
+    /// Its edges, with the domain on the left.
+    pub(super) edges: Vec<BoundaryEdge>,
     bounds: Rect,
     /// The least and the greatest height.
     heights: [f64; 2],
@@ -223,7 +242,7 @@ struct Curve {
 
 impl Curve {
     /// Returns the curves of all pieces that have edges in the mesh, by number.
-    fn all(mesh: &Extract, data: &MeshData) -> Vec<Self> {
+    pub(super) fn all(mesh: &Extract, data: &MeshData) -> Vec<Self> {
         let mut edges = vec![Vec::new(); data.boundary.pieces().list().len()];
         for (edge, &piece) in mesh.boundary_edges().zip(data.boundary.piece_of_edge()) {
             edges[piece as usize].push(edge);
@@ -238,7 +257,8 @@ impl Curve {
         edges.into_iter().enumerate().filter_map(curve).collect()
     }
 
-    fn tag(&self) -> i32 {
+    /// Returns the tag of the curve and of its physical group.
+    pub(super) fn tag(&self) -> i32 {
         self.piece as i32 + 1
     }
 }

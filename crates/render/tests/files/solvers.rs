@@ -12,8 +12,8 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::{
-    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom, gr3, mike, msh2, selafin,
-    ugrid,
+    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom, gr3, mike, selafin,
+    ugrid, ww3,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Extract, Limits, Mesh};
@@ -23,6 +23,7 @@ use crate::formula_mesh::formula_mesh;
 use crate::netcdf_reader::{Attribute, NetCdf};
 use crate::runs::seeds;
 
+mod gmsh;
 mod open_strings;
 mod types;
 
@@ -42,7 +43,8 @@ struct Strand {
     /// The number after that of its nodes.
     code: usize,
     name: String,
-    /// Whether it is a whole loop that does not repeat its first node: an island, or one that is open all around.
+    /// Whether it is a whole loop that does not repeat its first node: an island, or one that is open all
+    /// around.
     is_ring: bool,
 }
 
@@ -382,7 +384,7 @@ fn a_boundary_that_touches_itself_is_refused_with_the_place() {
         (".mesh", case.refused(mike::write)),
         ("SELAFIN", case.refused(selafin::write)),
         (".cli", case.refused(selafin::write_conditions)),
-        ("Gmsh 2.2 for WAVEWATCH III", case.refused(msh2::write)),
+        ("WAVEWATCH III", case.refused(ww3::write)),
         ("FVCOM", case.refused(fvcom::write_open_boundary)),
     ] {
         assert!(
@@ -427,9 +429,7 @@ fn read_mike(text: &str) -> (Seen, Vec<u32>, String) {
 /// Checks codes of nodes by the rule of solvers: an edge is open if neither node is land, with the code of
 /// its second node. `open` are the open strings, in the order of their codes.
 fn check_codes(seen: &Seen, codes: &[u32], open: &[Strand]) {
-    let strands = (2..)
-        .zip(open)
-        .flat_map(|(code, strand)| strand.edges().map(move |edge| (edge, code)));
+    let strands = (2..).zip(open).flat_map(|(code, strand)| strand.edges().map(move |edge| (edge, code)));
     let expected: HashMap<[usize; 2], u32> = strands.collect();
     let rim = rim(&seen.triangles);
     for &[from, to] in &rim {
@@ -494,7 +494,7 @@ fn an_open_piece_of_which_no_edge_would_remain_is_refused_where_nodes_are_marked
     ] {
         assert!(error.contains("no edge would remain of the open boundary \"open south part"), "{error}");
     }
-    assert!(!case.text(msh2::write).is_empty());
+    assert!(!case.text(ww3::write).is_empty());
 }
 
 /// Reads the records of a SELAFIN file: also IPOBO and the title.
@@ -581,11 +581,11 @@ fn check_conditions(case: &Case, seen: &Seen, order: &[usize]) {
 }
 
 #[test]
-fn msh2_reads_back() {
+fn ww3_reads_back() {
     for case in cases().into_iter().chain([frame()]) {
-        let text = case.text(msh2::write);
+        let text = case.text(ww3::write);
         let lines: Vec<&str> = text.lines().collect();
-        assert_eq!(lines[..4], ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes"]);
+        assert_eq!(lines[..4], ["$MeshFormat", "2 0 8", "$EndMeshFormat", "$Nodes"]);
         let (mut seen, nodes) = (Seen::default(), words::<usize>(lines[4], 1)[0]);
         for (id, line) in (1..=nodes).zip(&lines[5..]) {
             let row = words::<f64>(line, 4);
@@ -786,7 +786,8 @@ fn solver_formats_are_chosen_by_endings_and_names() {
         ("nc", "ugrid"),
         ("slf", "slf"),
         ("mesh", "mesh"),
-        ("msh2", "msh2"),
+        ("msh2", "msh22"),
+        ("ww3", "ww3"),
         ("msh", "msh"),
         ("dat", "fvcom"),
     ] {

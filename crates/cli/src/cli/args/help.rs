@@ -75,6 +75,6 @@ pub fn format_long_help() -> String {
     let help = format_help();
     format!(
         "{help}\n\nThe ending of a file chooses its format, unless the file may also be one of the named format (.msh for \
-         msh2) or the ending says nothing."
+         msh22 and ww3) or the ending says nothing."
     )
 }

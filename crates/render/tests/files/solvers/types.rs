@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use glam::dvec2;
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain};
-use meshbrush_io::io::{fort14, fvcom, gr3, mike, msh2, selafin, ugrid};
+use meshbrush_io::io::{fort14, fvcom, gr3, mike, selafin, ugrid, ww3};
 
 use super::{Case, Strand, doubled_area, random_coast, read_grid, read_mike, ring_of, typed_coast, words};
 use crate::netcdf_reader::{Attribute, NetCdf};
@@ -94,7 +94,7 @@ fn nodes_of_other_solvers_have_the_types_of_their_pieces() {
             lines.collect()
         };
         let open = listed(case.text(fvcom::write_open_boundary), 1, 1);
-        let points = case.text(msh2::write);
+        let points = case.text(ww3::write);
         let points = points.lines().filter(|line| line.split(' ').nth(1) == Some("15")).collect::<Vec<_>>();
         let points = listed(points.join("\n"), 0, 5);
         // What lies between two pieces is for `check_codes`.
