@@ -1,6 +1,7 @@
 //! The program as a person runs it: command line, recipes, projects.
 
 mod causes;
+mod check;
 mod cli;
 mod data_formats;
 mod depth;

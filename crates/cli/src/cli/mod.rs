@@ -6,6 +6,7 @@
 
 mod args;
 pub mod build;
+mod check;
 mod command_line;
 pub mod details;
 mod error_curve;
@@ -118,6 +119,7 @@ fn run_command(
     match (arguments.command, window) {
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
+        (Some(Command::Check(typed)), _) => check::run(&typed, line, &mut out, terminal),
         (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
         (Some(Command::Path(typed)), _) => path::run(&typed, line, &mut out, terminal),
         (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
@@ -155,6 +157,6 @@ fn run_command(
 fn without_window() -> Failure {
     let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
     Failure::Usage(format!(
-        "{problem} `locate`, `why`, `path`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
+        "{problem} `check`, `locate`, `why`, `path`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
     ))
 }

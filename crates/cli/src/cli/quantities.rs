@@ -37,6 +37,20 @@ pub fn parse_quantities(typed: &[String]) -> Result<Vec<NamedQuantity>, (usize, 
     Ok(quantities)
 }
 
+/// Returns the values that `--quantity` asks for.
+///
+/// # Errors
+/// Fails with a sentence that names the option, the value and the rule.
+pub fn typed_quantities(typed: &[String]) -> Result<Vec<NamedQuantity>, Failure> {
+    parse_quantities(typed).map_err(|(index, error)| match error {
+        QuantityError::Name(_) => Failure::Usage(format!("--quantity {}: {error}", typed[index])),
+        QuantityError::Formula(mistake) => {
+            let pointer = mistake.pointer().replace('\n', "\n    ");
+            Failure::Usage(format!("--quantity: {mistake}\n    {pointer}"))
+        }
+    })
+}
+
 /// Why a quantity cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum QuantityError {

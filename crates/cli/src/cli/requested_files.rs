@@ -8,7 +8,7 @@ use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::output_coordinates::OutputCoordinates;
-use super::quantities::{NamedQuantity, QuantityError, expression, parse_quantities};
+use super::quantities::{NamedQuantity, QuantityError, expression, parse_quantities, typed_quantities};
 use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
@@ -56,15 +56,7 @@ impl RequestedFiles {
         check_count("-o", "files", typed.output.len(), MOST_FILES)?;
         check_count("--quantity", "quantities", typed.quantity.len(), MOST_QUANTITIES)?;
         let look = RequestedLook::new(&typed.picture)?.in_space(RequestedSpace::new(&typed.space)?);
-        let quantities = parse_quantities(&typed.quantity).map_err(|(index, error)| match error {
-            QuantityError::Name(_) => {
-                Failure::Usage(format!("--quantity {}: {error}", typed.quantity[index]))
-            }
-            QuantityError::Formula(mistake) => {
-                let pointer = mistake.pointer().replace('\n', "\n    ");
-                Failure::Usage(format!("--quantity: {mistake}\n    {pointer}"))
-            }
-        })?;
+        let quantities = typed_quantities(&typed.quantity)?;
         let format = typed.format.as_deref();
         let output = |path: &PathBuf| Output::new(path, format, typed.binary);
         let outputs = typed.output.iter().map(output).collect::<Result<Vec<_>, _>>()?;
@@ -347,7 +339,8 @@ impl ExportedMesh<'_> {
         }
     }
 
-    fn data<'a>(&'a self, quantities: &'a [NodeValues], is_flat: bool) -> MeshData<'a> {
+    /// Returns the data of the mesh with these values at the nodes. A flat mesh has no heights.
+    pub(super) fn data<'a>(&'a self, quantities: &'a [NodeValues], is_flat: bool) -> MeshData<'a> {
         let Self { details, provenance, target_diameter, .. } = *self;
         let MeshDetails { boundary, parts, .. } = details;
         let surface = quantities.iter().find(|values| values.name == SURFACE && !is_flat);
@@ -356,7 +349,10 @@ impl ExportedMesh<'_> {
     }
 
     /// Returns the nodes and triangles with other coordinates, if these are not those of the mesh.
-    fn in_coordinates(&self) -> Result<Option<Extract<'_>>, Failure> {
+    ///
+    /// # Errors
+    /// Fails where the domain is not in the plane of a projection.
+    pub(super) fn in_coordinates(&self) -> Result<Option<Extract<'_>>, Failure> {
         let domain = self.finished.domain();
         let nodes = match self.coordinates {
             OutputCoordinates::Lonlat => domain.nodes_in(&Coordinates::Geographic, self.extract),

@@ -165,6 +165,15 @@ impl BoundaryStrings {
     /// # Errors
     /// Fails where no edge of an open string would remain.
     pub(super) fn node_codes(&self, mesh: &Extract, format: &str) -> io::Result<Vec<u32>> {
+        let codes = self.marked_codes(mesh);
+        match self.without_own_edge(&codes).first() {
+            Some(string) => Err(no_own_edge(string, mesh, format)),
+            None => Ok(codes),
+        }
+    }
+
+    /// Returns the codes of [`Self::node_codes`], also where no edge of an open string remains.
+    pub(super) fn marked_codes(&self, mesh: &Extract) -> Vec<u32> {
         let mut codes = vec![0; mesh.nodes().len()];
         for string in self.closed() {
             string.nodes.iter().for_each(|&node| codes[node] = LAND);
@@ -178,13 +187,15 @@ impl BoundaryStrings {
         for node in self.nodes_for_short_land(&codes) {
             codes[node] = LAND;
         }
+        codes
+    }
+
+    /// Returns the open strings of which no edge remains by these codes.
+    pub(super) fn without_own_edge(&self, codes: &[u32]) -> Vec<&BoundaryString> {
         let has_edge = |string: &BoundaryString| {
             string.nodes.windows(2).any(|ends| ends.iter().all(|&node| codes[node] > LAND))
         };
-        match self.open().find(|string| !has_edge(string)) {
-            Some(string) => Err(no_own_edge(string, mesh, format)),
-            None => Ok(codes),
-        }
+        self.open().filter(|string| !has_edge(string)).collect()
     }
 
     /// Returns a node for each land string that has none of its own: the one that it shares with the longer

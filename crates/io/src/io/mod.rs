@@ -85,6 +85,7 @@ pub mod shape_format;
 pub mod shapes;
 pub mod shp;
 pub mod sms;
+pub mod solver_rules;
 mod stamp;
 pub mod stl;
 pub mod svg;

@@ -32,7 +32,7 @@ use other::{CompletionsArguments, ScreenshotsArguments};
 pub use other::{RecipeArguments, ReplayArguments, ReportArguments, ThumbnailArguments};
 pub use path::PathArguments;
 pub use picture::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
-pub use query::{LocateArguments, WhyArguments};
+pub use query::{CheckArguments, LocateArguments, WhyArguments};
 pub use space::{PictureView, SpaceArguments};
 
 use help::file_help;
@@ -79,6 +79,12 @@ pub enum Command {
     /// Build a mesh, write it to files, print a summary
     #[command(after_help = MESH_EXAMPLES)]
     Mesh(MeshArguments),
+    /// Build a mesh and say where it breaks the rules of a solver, as its file would have it
+    ///
+    /// Rules look at what is in the file: angles are those of its coordinates, and open nodes those that it
+    /// marks. The exit status is 1 if the mesh breaks a rule; notes do not count.
+    #[command(after_help = CHECK_EXAMPLES)]
+    Check(CheckArguments),
     /// Build a mesh and find the triangle that contains each of a list of points
     ///
     /// Numbers of triangles and vertices start at 0, and the order of the vertices is anticlockwise, first
@@ -139,6 +145,12 @@ Examples:
   meshbrush mesh --project coast.meshbrush -o mesh.vtu
   meshbrush mesh coast.toml -o mesh.vtu
   meshbrush mesh --inside 'r < 1' --domain -1,-1,1,1 --target '0.02 + 0.1*r' --json";
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  meshbrush check coast.toml --for fvcom
+  meshbrush check coast.toml --for swan --out-crs plane --json
+  meshbrush check --domain 0,0,40000,40000 --spacing 10000 --quantity depth=50 --for adcirc";
 
 const LOCATE_EXAMPLES: &str = "\
 Example:

@@ -1,10 +1,36 @@
-//! Arguments of the commands that ask about a mesh: `meshbrush locate` and `meshbrush why`.
+//! Arguments of the commands that ask about a mesh: `meshbrush check`, `meshbrush locate` and `meshbrush
+//! why`.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::input::InputArguments;
+use crate::cli::output_coordinates::OutputCoordinates;
+use meshbrush_io::io::solver_rules::Solver;
+
+/// `meshbrush check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub input: InputArguments,
+
+    /// The solver whose rules count: adcirc, schism, swan, telemac, fvcom, ww3, delft3dfm, mike or modflow
+    #[arg(long = "for", value_name = "NAME", help_heading = "Rules")]
+    pub solver: Solver,
+
+    /// Coordinates in the file, as for `meshbrush mesh`
+    #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Rules")]
+    pub out_crs: Option<OutputCoordinates>,
+
+    /// A value at the nodes, as for `meshbrush mesh`: `depth=EXPR` is the depth, in place of that of layers
+    #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Rules")]
+    pub quantity: Vec<String>,
+
+    /// Print the answer as one JSON object on standard output
+    #[arg(long, help_heading = "Output")]
+    pub json: bool,
+}
 
 /// `meshbrush locate`.
 #[derive(Debug, Args)]

@@ -1,0 +1,195 @@
+//! `meshbrush check`: build, then say where the mesh as it would be written breaks the rules of a solver.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+use serde::Serialize;
+
+use super::args::CheckArguments;
+use super::build::{FinishedMesh, build};
+use super::details::{DetailUses, MeshDetails};
+use super::failure::Failure;
+use super::input::Input;
+use super::mesh::note_capped;
+use super::quantities::typed_quantities;
+use super::requested_files::ExportedMesh;
+use super::terminal::Terminal;
+use meshbrush_io::io::solver_rules::{
+    BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
+};
+use meshbrush_io::io::{DEPTH, NodeValues};
+use meshbrush_mesh::text::{Grouped, Number};
+
+/// How many places of a rule are printed one by one; JSON has all.
+const SHOWN_PLACES: usize = 10;
+
+/// Runs the command. `line` is how it was typed, and `out` is standard output.
+///
+/// # Errors
+/// Fails with the reason, when the arguments make no sense, the work failed, or the mesh breaks a rule.
+pub fn run(
+    typed: &CheckArguments,
+    line: &str,
+    out: &mut dyn Write,
+    terminal: &mut Terminal,
+) -> Result<(), Failure> {
+    let input = Input::new(&typed.input)?;
+    let quantities = typed_quantities(&typed.quantity)?;
+    input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let finished = build(&input, terminal)?;
+    note_capped(&finished, terminal);
+    let extract = finished.extract();
+    let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
+    let uses = DetailUses { json: false, node_data: true };
+    let details = MeshDetails::of(&finished, &extract, line, &input, coordinates, uses);
+    let details = details.map_err(|error| Failure::Work(error.to_string()))?;
+    let of_layers = details.depths.as_ref().map(|depths| depths.depths.clone());
+    let mut values = quantities.iter().map(|of| of.at_nodes(&extract)).collect::<Result<Vec<_>, _>>()?;
+    if !values.iter().any(|values| values.name == DEPTH) {
+        values.extend(of_layers.map(|values| NodeValues { name: DEPTH.into(), values }));
+    }
+    let provenance = &details.provenance;
+    let exported = ExportedMesh {
+        finished: &finished,
+        extract: &extract,
+        details: &details,
+        provenance,
+        coordinates,
+        target_diameter: &[],
+    };
+    let placed = exported.in_coordinates()?;
+    let data = exported.data(&values, true);
+    let written = WrittenMesh::of(placed.as_ref().unwrap_or(&extract), &data, typed.solver);
+    let broken = terminal.while_working("checking the rules", || broken_rules(&written, typed.solver));
+    let meaning = provenance.entries().find_map(|(key, text)| (key == "coordinates").then_some(text));
+    let answer = CheckAnswer::new(&finished, &written, typed.solver, meaning.unwrap_or_default(), &broken);
+    let text = match typed.json {
+        true => serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))? + "\n",
+        false => answer.for_people(&broken),
+    };
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(Failure::Print)?;
+    match answer.violations.len() {
+        0 => Ok(()),
+        count => Err(Failure::Work(format!(
+            "The mesh breaks rules of {} in {}.",
+            typed.solver.name(),
+            counted(count, "place")
+        ))),
+    }
+}
+
+/// The answer of `--json`.
+#[derive(Serialize)]
+struct CheckAnswer<'a> {
+    /// The word of the solver.
+    solver: &'static str,
+    /// What coordinates are in the file.
+    coordinates: &'a str,
+    triangles: usize,
+    nodes: usize,
+    /// The mesh's fingerprint.
+    hash: String,
+    /// All rules of the solver, with the number of places that break them.
+    rules: Vec<RuleCount>,
+    /// The places that break a rule.
+    violations: Vec<PlaceAnswer<'a>>,
+    /// The places that a person should know of.
+    notes: Vec<PlaceAnswer<'a>>,
+    /// Rules that could not be checked, as the boundary touches itself.
+    unchecked: Vec<&'static str>,
+}
+
+/// A rule, and how often it is broken.
+#[derive(Serialize)]
+struct RuleCount {
+    rule: &'static str,
+    source: &'static str,
+    count: usize,
+}
+
+/// A place that breaks a rule.
+#[derive(Serialize)]
+struct PlaceAnswer<'a> {
+    rule: &'static str,
+    /// In the coordinates of the file.
+    place: [f64; 2],
+    source: &'static str,
+    sentence: &'a str,
+}
+
+impl<'a> PlaceAnswer<'a> {
+    /// Returns the places that break rules that matter so much.
+    fn all(broken: &'a [BrokenRule], severity: Severity) -> Vec<Self> {
+        let of_severity = broken.iter().filter(|broken| broken.rule.severity == severity);
+        let places =
+            of_severity.flat_map(|broken| broken.found.iter().map(move |found| (broken.rule, found)));
+        let place = |(rule, found): (&SolverRule, &'a BrokenPlace)| Self {
+            rule: rule.name,
+            place: found.place.into(),
+            source: rule.source,
+            sentence: &found.sentence,
+        };
+        places.map(place).collect()
+    }
+}
+
+impl<'a> CheckAnswer<'a> {
+    fn new(
+        finished: &FinishedMesh,
+        written: &WrittenMesh,
+        solver: Solver,
+        coordinates: &'a str,
+        broken: &'a [BrokenRule],
+    ) -> Self {
+        let count = |name: &str| {
+            broken.iter().find(|broken| broken.rule.name == name).map_or(0, |broken| broken.found.len())
+        };
+        let of_rule =
+            |rule: &'static str, source: &'static str| RuleCount { rule, source, count: count(rule) };
+        let needs = rules_of(solver).filter(|rule| rule.needs_strings && !written.has_strings());
+        Self {
+            solver: solver.word(),
+            coordinates,
+            triangles: written.triangles.len(),
+            nodes: written.nodes.len(),
+            hash: finished.mesh().fingerprint().to_string(),
+            rules: rules_of(solver).map(|rule| of_rule(rule.name, rule.source)).collect(),
+            violations: PlaceAnswer::all(broken, Severity::Violation),
+            notes: PlaceAnswer::all(broken, Severity::Note),
+            unchecked: needs.map(|rule| rule.name).collect(),
+        }
+    }
+
+    /// Returns a line about the mesh, and for each broken rule its first places and what helps.
+    fn for_people(&self, broken: &[BrokenRule]) -> String {
+        let solver: Result<Solver, _> = self.solver.parse();
+        let name = solver.map_or(self.solver, Solver::name);
+        let (violations, rules) = (self.violations.len(), self.rules.len());
+        let (triangles, coordinates) = (counted(self.triangles, "triangle"), self.coordinates);
+        let found = if violations == 0 { "no violation".into() } else { counted(violations, "violation") };
+        let of = counted(rules, "rule");
+        let mut text = format!("{name}: {found} of {of} in {triangles}, with {coordinates}\n");
+        for BrokenRule { rule, found } in broken {
+            let kind = if rule.severity == Severity::Note { "note: " } else { "" };
+            let _ = write!(text, "\n{kind}{} ({}): {}\n", rule.name, rule.source, Grouped(found.len()));
+            for BrokenPlace { place, sentence } in found.iter().take(SHOWN_PLACES) {
+                let _ = writeln!(text, "  x = {}, y = {}: {sentence}", Number(place.x), Number(place.y));
+            }
+            if let Some(more @ 1..) = found.len().checked_sub(SHOWN_PLACES) {
+                let _ = writeln!(text, "  {} more; --json has all", Grouped(more));
+            }
+            let _ = writeln!(text, "  {}", rule.remedy);
+        }
+        if !self.unchecked.is_empty() {
+            let names = self.unchecked.join(", ");
+            let _ = writeln!(text, "\nnot checked, as the boundary touches itself: {names}");
+        }
+        text
+    }
+}
+
+/// Returns a number with its noun.
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{} {noun}{plural}", Grouped(count))
+}

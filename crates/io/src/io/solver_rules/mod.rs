@@ -1,0 +1,221 @@
+//! The rules by which solvers refuse, drop or double what a mesh file holds, and the places that break them.
+//!
+//! A file that opens is not a file that runs. Each rule is a row of [`RULES`]: its name, the solvers that
+//! keep it, where it comes from, what helps, and a function from the mesh as a file of the solver has it
+//! ([`WrittenMesh`]) to places. Rules look at nothing but what is in the file, so they see what the solver
+//! will see: angles are those of the coordinates that are written, and open nodes those that are marked.
+
+mod angles;
+mod boundary;
+mod flow_links;
+mod nodes;
+mod solver;
+#[cfg(test)]
+mod tests;
+mod written_mesh;
+
+use glam::DVec2;
+
+pub use solver::{Solver, UnknownSolver};
+pub use written_mesh::{WrittenMesh, WrittenString};
+
+use Solver::{Adcirc, Delft3dFm, Fvcom, Mike, Schism, Swan, Telemac};
+
+/// A place at which a mesh breaks a rule.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BrokenPlace {
+    /// The place, in the coordinates of the file: a node, or the middle of a triangle or of an edge.
+    pub place: DVec2,
+    /// What is there, with its numbers.
+    pub sentence: String,
+}
+
+/// How much a rule matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The solver refuses the mesh, changes it, or advises against it.
+    Violation,
+    /// It runs, and a person should know.
+    Note,
+}
+
+/// A rule of solvers.
+#[derive(Debug)]
+pub struct SolverRule {
+    /// Its name in lists and in JSON: letters and underscores.
+    pub name: &'static str,
+    /// The solvers that have it.
+    pub solvers: &'static [Solver],
+    /// Where it comes from: a program, and a file of its source where one is known.
+    pub source: &'static str,
+    /// How much it matters.
+    pub severity: Severity,
+    /// Whether it looks at the strings of the boundary, which one that touches itself does not have.
+    pub needs_strings: bool,
+    /// What a person can do.
+    pub remedy: &'static str,
+    /// Returns the places that break it, in the order of triangles, nodes or strings.
+    pub find: fn(&WrittenMesh) -> Vec<BrokenPlace>,
+}
+
+/// The rules, those of all solvers first.
+pub static RULES: [SolverRule; 15] = [
+    SolverRule {
+        name: "clockwise_triangle",
+        solvers: &Solver::ALL,
+        source: "the formats of all solvers",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "This is a mistake of the program: please report it, with the recipe.",
+        find: nodes::clockwise_triangles,
+    },
+    SolverRule {
+        name: "repeated_node",
+        solvers: &Solver::ALL,
+        source: "the formats of all solvers",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "This is a mistake of the program, or places are too close for the coordinates of the file: write the \
+                 plane (--out-crs plane).",
+        find: nodes::repeated_nodes,
+    },
+    SolverRule {
+        name: "node_without_triangle",
+        solvers: &Solver::ALL,
+        source: "the formats of all solvers",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "This is a mistake of the program: please report it, with the recipe.",
+        find: nodes::lone_nodes,
+    },
+    SolverRule {
+        name: "boundaries_that_touch",
+        solvers: &Solver::ALL,
+        source: "the formats of all solvers: two boundary edges at each node of the boundary",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Have such nodes removed (without --keep-pinches), put nodes on the outline, or choose smaller triangles there.",
+        find: boundary::touching,
+    },
+    SolverRule {
+        name: "open_node_twice",
+        solvers: &[Adcirc],
+        source: "ADCIRC gwce.F",
+        severity: Severity::Violation,
+        needs_strings: true,
+        remedy: "Write the open pieces that meet as one string: the tide is added up over the list of open nodes.",
+        find: boundary::open_nodes_twice,
+    },
+    SolverRule {
+        name: "short_open_string",
+        solvers: &[Adcirc, Schism],
+        source: "ADCIRC, SCHISM: an open boundary has an edge",
+        severity: Severity::Violation,
+        needs_strings: true,
+        remedy: "Choose smaller triangles there, or join the piece with its neighbour.",
+        find: boundary::short_open_strings,
+    },
+    SolverRule {
+        name: "boundary_of_two_nodes",
+        solvers: &[Adcirc],
+        source: "ASGS checkAdcircMesh",
+        severity: Severity::Violation,
+        needs_strings: true,
+        remedy: "Choose smaller triangles there, or join the piece with its neighbour.",
+        find: boundary::strings_of_two_nodes,
+    },
+    SolverRule {
+        name: "open_piece_without_edge",
+        solvers: &[Fvcom, Mike, Telemac],
+        source: "FVCOM, MIKE, TELEMAC: an edge is open if both its nodes are",
+        severity: Severity::Violation,
+        needs_strings: true,
+        remedy: "Choose smaller triangles there, or join the piece with its neighbour.",
+        find: boundary::lost_open_pieces,
+    },
+    SolverRule {
+        name: "two_open_nodes_and_shore",
+        solvers: &[Fvcom],
+        source: "FVCOM tge.F",
+        severity: Severity::Violation,
+        needs_strings: true,
+        remedy: "Choose smaller triangles there, or move the end of the open piece: at corners, and where the frame runs \
+                 along a coast, a triangle needs an inner node.",
+        find: boundary::two_open_nodes_and_shore,
+    },
+    SolverRule {
+        name: "overconstrained_triangle",
+        solvers: &[Telemac],
+        source: "TELEMAC-2D: overconstrained triangles",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Choose smaller triangles there: a triangle needs a node that is not on the boundary.",
+        find: boundary::overconstrained,
+    },
+    SolverRule {
+        name: "obtuse_angle",
+        solvers: &[Swan],
+        source: "SWAN SwanCheckGrid.ftn90",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Angles are those of the coordinates in the file: a mesh that was made in metres is written in them by \
+                 --out-crs plane. Or choose smaller triangles there.",
+        find: angles::obtuse,
+    },
+    SolverRule {
+        name: "cells_at_node",
+        solvers: &[Swan],
+        source: "SWAN SwanCheckGrid.ftn90",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Choose smaller triangles there.",
+        find: nodes::cells_at_nodes,
+    },
+    SolverRule {
+        name: "short_flow_link",
+        solvers: &[Delft3dFm],
+        source: "D-Flow FM flow_geominit.f90",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "No water crosses such a link: join both triangles to a quadrilateral, as MeshKernel and RGFGRID do.",
+        find: flow_links::short,
+    },
+    SolverRule {
+        name: "skewed_flow_link",
+        solvers: &[Delft3dFm],
+        source: "D-Flow FM flow_geominit.f90",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Choose smaller triangles there, or orthogonalize the mesh there in RGFGRID.",
+        find: flow_links::skewed,
+    },
+    SolverRule {
+        name: "dry_node",
+        solvers: &[Adcirc, Schism],
+        source: "depths in the file: at 0 and less a node is dry",
+        severity: Severity::Note,
+        needs_strings: false,
+        remedy: "Write a least depth (--least-depth 3), or leave it to the wetting and drying of the solver.",
+        find: nodes::dry_nodes,
+    },
+];
+
+/// A rule that a mesh breaks, and where.
+#[derive(Debug)]
+pub struct BrokenRule {
+    /// The rule.
+    pub rule: &'static SolverRule,
+    /// The places, one at least.
+    pub found: Vec<BrokenPlace>,
+}
+
+/// Returns the rules of a solver.
+pub fn rules_of(solver: Solver) -> impl Iterator<Item = &'static SolverRule> {
+    RULES.iter().filter(move |rule| rule.solvers.contains(&solver))
+}
+
+/// Returns the rules of a solver that a mesh breaks, with the places.
+pub fn broken_rules(mesh: &WrittenMesh, solver: Solver) -> Vec<BrokenRule> {
+    let broken = rules_of(solver).map(|rule| BrokenRule { rule, found: (rule.find)(mesh) });
+    broken.filter(|broken| !broken.found.is_empty()).collect()
+}
