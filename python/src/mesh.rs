@@ -129,7 +129,7 @@ impl Shared {
             let source = MeshSource::Document(&self.name);
             let coordinates = self.finished.coordinates().into();
             let provenance = provenance_from(&self.finished, source, None, coordinates);
-            let uses = DetailUses { json: true, node_data: true };
+            let uses = DetailUses { json: true, node_data: true, ..DetailUses::default() };
             let details = self.with_extract(|extract| {
                 MeshDetails::with_provenance(&self.finished, extract, provenance, uses)
             });

@@ -568,3 +568,47 @@ fn slopes_are_those_on_the_ground_in_every_projection() {
         );
     }
 }
+
+#[test]
+fn depths_in_files_are_no_less_than_the_least_depth() {
+    let folder = Folder::new("depth-least");
+    let sea = "mesh --domain 0,0,4000,3000 --spacing 1000 --quantity depth=x/100-5 -o sea.14";
+    let depths = |text: &str| -> Vec<f64> {
+        let nodes = text.lines().nth(1).unwrap().split(' ').nth(1).unwrap().parse().unwrap();
+        let rows = text.lines().skip(2).take(nodes);
+        rows.map(|row| row.split(' ').nth(3).unwrap().parse().unwrap()).collect()
+    };
+    folder.run(sea);
+    let plain = depths(&folder.read("sea.14"));
+    let ran = folder.run(format!("{sea} --least-depth 3 --json").as_str());
+    let text = folder.read("sea.14");
+    assert!(text.lines().next().unwrap().contains("; least depth: 3 m"), "{text}");
+    let expected: Vec<f64> = plain.iter().map(|depth| depth.max(3.0)).collect();
+    assert_eq!(depths(&text), expected);
+    let raised = plain.iter().filter(|depth| **depth < 3.0).count();
+    assert_eq!(ran.json()["least_depth"], serde_json::json!({ "depth": 3.0, "raised": raised }));
+    assert!(raised > 0 && ran.err.contains(&format!("{raised} nodes are less than 3 m deep")), "{}", ran.err);
+    let unused = folder.run("mesh --spacing 0.5 -o a.14 --least-depth 3");
+    assert!(unused.status == 0 && unused.err.contains("--least-depth changes nothing"), "{}", unused.err);
+    assert_eq!(folder.run("mesh --least-depth deep").status, 2);
+    let checked =
+        folder.run("check --domain 0,0,4,3 --spacing 1 --quantity depth=x-2 --for adcirc --json").json();
+    let notes = |answer: &serde_json::Value| answer["notes"].as_array().unwrap().len();
+    let raised =
+        "check --domain 0,0,4,3 --spacing 1 --quantity depth=x-2 --least-depth 1 --for adcirc --json";
+    assert_eq!((notes(&checked), notes(&folder.run(raised).json())), (12, 0));
+}
+
+#[test]
+fn the_largest_time_step_is_known_for_a_depth_that_is_given() {
+    let folder = Folder::new("depth-step");
+    let options = "--domain 0,0,40000,40000 --spacing 10000 --quantity depth=50 -o sea.14";
+    let step = folder.json("mesh", options)["largest_time_step"].clone();
+    // All triangles are alike: their heights are as long as half their longest edges.
+    let [edge, height] = [&step, &step["by_height"]].map(|step| step["seconds"].as_f64().unwrap());
+    assert!((height / edge - 0.5_f64.sqrt()).abs() < 1e-9, "{step}");
+    let bound = 10_000.0 / (9.81_f64 * 50.0).sqrt();
+    assert!(edge > 0.9 * bound && edge <= bound, "{edge} {bound}");
+    let text = folder.run(format!("mesh {options}").as_str()).err;
+    assert!(text.contains("largest time step ") && text.contains(" s across triangles, at "), "{text}");
+}

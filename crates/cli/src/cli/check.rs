@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::args::CheckArguments;
 use super::build::{FinishedMesh, build};
+use super::depths::LeastDepth;
 use super::details::{DetailUses, MeshDetails};
 use super::failure::Failure;
 use super::input::Input;
@@ -40,11 +41,15 @@ pub fn run(
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
-    let uses = DetailUses { json: false, node_data: true };
+    let uses = DetailUses { node_data: true, least_depth: typed.least_depth, ..DetailUses::default() };
     let details = MeshDetails::of(&finished, &extract, line, &input, coordinates, uses);
     let details = details.map_err(|error| Failure::Work(error.to_string()))?;
     let of_layers = details.depths.as_ref().map(|depths| depths.depths.clone());
     let mut values = quantities.iter().map(|of| of.at_nodes(&extract)).collect::<Result<Vec<_>, _>>()?;
+    let given = values.iter_mut().find(|values| values.name == DEPTH);
+    if let (Some(given), Some(least)) = (given, typed.least_depth) {
+        LeastDepth::raise(least, &mut given.values);
+    }
     if !values.iter().any(|values| values.name == DEPTH) {
         values.extend(of_layers.map(|values| NodeValues { name: DEPTH.into(), values }));
     }

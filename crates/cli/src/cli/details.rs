@@ -3,14 +3,13 @@
 use serde::Serialize;
 
 use super::build::FinishedMesh;
+use super::depths::{LeastDepth, TimeStepSummary};
 use super::input::Input;
 use super::output_coordinates::OutputCoordinates;
 use super::quality::QualitySummary;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{
-    CourantFit, DepthFit, LargestTimeStep, Layer, NoDepth, NodeDepths, StraitCount, Straits,
-};
+use meshbrush_core::layers::{CourantFit, DepthFit, Layer, NoDepth, NodeDepths, StraitCount, Straits};
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -28,8 +27,10 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
     pub courant: Option<CourantFit>,
-    /// The largest stable time step, if a layer has depths, lengths are no degrees, and it is wanted.
-    pub largest_time_step: Option<LargestTimeStep>,
+    /// The least depth in files, if one is given and there are depths.
+    pub least_depth: Option<LeastDepth>,
+    /// The largest stable time step, if there are depths, and lengths are no degrees.
+    pub largest_time_step: Option<TimeStepSummary>,
     /// How good the triangles are, if it is wanted.
     pub quality: Option<QualitySummary>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
@@ -41,12 +42,16 @@ pub struct MeshDetails {
 }
 
 /// What the details are wanted for.
-#[derive(Clone, Copy, Debug)]
-pub struct DetailUses {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DetailUses<'a> {
     /// The summary in JSON.
     pub json: bool,
     /// Files with values at the nodes.
     pub node_data: bool,
+    /// The depth at each node, where a quantity gives it in place of layers.
+    pub given_depths: Option<&'a [f64]>,
+    /// The least depth in files, in metres.
+    pub least_depth: Option<f64>,
 }
 
 impl MeshDetails {
@@ -60,7 +65,7 @@ impl MeshDetails {
         line: &str,
         input: &Input,
         coordinates: OutputCoordinates,
-        uses: DetailUses,
+        uses: DetailUses<'_>,
     ) -> Result<Self, NoDepth> {
         Self::with_provenance(finished, extract, provenance(finished, line, input, coordinates), uses)
     }
@@ -73,21 +78,28 @@ impl MeshDetails {
         finished: &FinishedMesh,
         extract: &Extract,
         provenance: Provenance,
-        uses: DetailUses,
+        uses: DetailUses<'_>,
     ) -> Result<Self, NoDepth> {
         let layers = finished.layers();
-        let depths = match uses.json || uses.node_data {
+        let mut depths = match uses.json || uses.node_data {
             true => NodeDepths::of(layers, extract.view()).transpose()?,
             false => None,
+        };
+        let mut given = uses.given_depths.map(<[f64]>::to_vec);
+        let raised = [depths.as_mut().map(|depths| &mut depths.depths), given.as_mut()]
+            .map(|values| Some(LeastDepth::raise(uses.least_depth?, values?)));
+        let [of_layers, of_quantity] = raised;
+        let least_depth = of_quantity.or(of_layers);
+        let provenance = match least_depth {
+            Some(LeastDepth { depth, .. }) => provenance.with_line("least depth", &format!("{depth} m")),
+            None => provenance,
         };
         let courant = depths.as_ref().and_then(|depths| {
             let ground = finished.ground();
             CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
         });
-        let largest_time_step = depths.as_ref().filter(|_| uses.json).and_then(|depths| {
-            let ground = finished.ground();
-            LargestTimeStep::of(extract.view(), &depths.depths, finished.unit(), |ends| ground.length(ends))
-        });
+        let known = given.as_deref().or(depths.as_ref().map(|depths| &*depths.depths));
+        let largest_time_step = known.and_then(|depths| TimeStepSummary::of(finished, extract, depths));
         let quality = uses.json.then(|| QualitySummary::of(finished, extract, depths.as_ref()));
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
@@ -100,6 +112,7 @@ impl MeshDetails {
             provenance,
             depths,
             courant,
+            least_depth,
             largest_time_step,
             quality,
             surface,
@@ -243,21 +256,6 @@ impl From<CourantFit> for CourantSummary {
     fn from(fit: CourantFit) -> Self {
         let CourantFit { limit, time_step, edges, above, largest, at } = fit;
         Self { limit, time_step, edges, above, largest, at: at.into() }
-    }
-}
-
-/// The largest time step of a wave of 1 m with the Courant number 1 along every edge.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct TimeStepSummary {
-    /// The time step, in seconds.
-    pub seconds: f64,
-    /// The middle of the edge that decides it.
-    pub at: [f64; 2],
-}
-
-impl From<LargestTimeStep> for TimeStepSummary {
-    fn from(LargestTimeStep { seconds, at, edge: _ }: LargestTimeStep) -> Self {
-        Self { seconds, at: at.into() }
     }
 }
 

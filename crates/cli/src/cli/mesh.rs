@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
+use super::depths::LeastDepth;
 use super::details::{DetailUses, MeshDetails, StraitSummary, provenance};
 use super::failure::Failure;
 use super::input::Input;
@@ -53,7 +54,10 @@ pub fn run(
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
     let node_data = files.iter().any(RequestedFiles::wants_node_data);
-    let uses = DetailUses { json: typed.json, node_data };
+    let mut depths = files.iter().filter_map(RequestedFiles::depth);
+    let given_depths = depths.next().map(|depth| depth.at_nodes(&extract)).transpose()?;
+    let given_depths = given_depths.as_ref().map(|depth| &*depth.values);
+    let uses = DetailUses { json: typed.json, node_data, given_depths, least_depth: typed.least_depth };
     let (details, summary) = terminal.while_working("measuring the mesh", || {
         let details =
             wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, coordinates, uses));
@@ -64,6 +68,7 @@ pub fn run(
     if !typed.json {
         terminal.say(&summary.for_people());
     }
+    note_least_depth(typed.least_depth, details.as_ref(), terminal);
     note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
@@ -117,6 +122,20 @@ fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
              most {:.1} away.",
             depths.farthest
         ));
+    }
+}
+
+/// Tells the user how many nodes have the least depth in place of their own, or that it changes nothing.
+fn note_least_depth(asked: Option<f64>, details: Option<&MeshDetails>, terminal: &mut Terminal) {
+    match (asked, details.and_then(|details| details.least_depth)) {
+        (Some(_), None) => terminal.note(
+            "--least-depth changes nothing: nothing is written with depths (--depth, or --quantity depth=EXPR).",
+        ),
+        (_, Some(LeastDepth { depth, raised: raised @ 1.. })) => {
+            let nodes = Grouped(raised);
+            terminal.note(&format!("{nodes} nodes are less than {depth} m deep, and are written with {depth} m."));
+        }
+        _ => {}
     }
 }
 

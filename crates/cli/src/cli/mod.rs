@@ -8,6 +8,7 @@ mod args;
 pub mod build;
 mod check;
 mod command_line;
+mod depths;
 pub mod details;
 mod error_curve;
 pub mod failure;

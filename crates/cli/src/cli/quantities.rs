@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::failure::Failure;
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
-use meshbrush_io::io::NodeValues;
+use meshbrush_io::io::{DEPTH, NodeValues};
 use meshbrush_mesh::mesh::Extract;
 
 /// The name of a value that is given without one.
@@ -85,6 +85,11 @@ fn is_name(text: &str) -> bool {
 }
 
 impl NamedQuantity {
+    /// Returns whether files take it for the depth.
+    pub fn is_depth(&self) -> bool {
+        self.name == DEPTH
+    }
+
     /// Returns the values at the nodes of a mesh.
     ///
     /// # Errors

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::args::MeshArguments;
 use super::build::FinishedMesh;
+use super::depths::LeastDepth;
 use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
@@ -104,6 +105,11 @@ impl RequestedFiles {
             fault.at(index)
         })?;
         Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat })
+    }
+
+    /// Returns the quantity that is the depth, if one is and a file has it.
+    pub fn depth(&self) -> Option<&NamedQuantity> {
+        self.quantities.iter().find(|quantity| quantity.is_depth())
     }
 
     /// Returns whether a file has values at the nodes.
@@ -304,6 +310,10 @@ impl RequestedFiles {
             values.push(quantity.at_nodes(exported.extract)?);
         }
         let details = exported.details;
+        let given = values.iter_mut().find(|values| values.name == DEPTH);
+        if let (Some(given), Some(LeastDepth { depth, .. })) = (given, details.least_depth) {
+            LeastDepth::raise(depth, &mut given.values);
+        }
         let depths = details.depths.as_ref().map(|depths| (DEPTH, depths.depths.clone()));
         let heights = details.heights.as_ref().map(|heights| (SURFACE, heights.clone()));
         for (name, of_layers) in depths.into_iter().chain(heights) {

@@ -4,9 +4,10 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
+use super::depths::{HeightTimeStep, LeastDepth, TimeStepSummary};
 use super::details::{
     CourantSummary, DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
-    SurfaceSummary, TimeStepSummary,
+    SurfaceSummary,
 };
 use super::quality::QualitySummary;
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
@@ -59,7 +60,10 @@ pub struct Summary {
     /// The Courant numbers of the edges, if a layer keeps them below a number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub courant: Option<CourantSummary>,
-    /// The largest stable time step, if a layer has depths and lengths are no degrees.
+    /// The least depth in files, if one is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_depth: Option<LeastDepth>,
+    /// The largest stable time step, if there are depths, and lengths are no degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_time_step: Option<TimeStepSummary>,
     /// How far the mesh is from surfaces, if a layer is one.
@@ -318,7 +322,8 @@ impl Summary {
             seconds: finished.refinement.as_secs_f64(),
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
             courant: details.and_then(|details| details.courant).map(CourantSummary::from),
-            largest_time_step: details.and_then(|details| details.largest_time_step).map(Into::into),
+            largest_time_step: details.and_then(|details| details.largest_time_step),
+            least_depth: details.and_then(|details| details.least_depth),
             surface: fit
                 .as_ref()
                 .zip(finished.built().surface.as_ref())
@@ -362,11 +367,24 @@ impl Summary {
         if let Some(nodes) = &self.outline_nodes {
             text.insert_str(text.len() - 1, &nodes.for_people());
         }
+        if let Some(step) = &self.largest_time_step {
+            text.insert_str(text.len() - 1, &step.for_people());
+        }
         text += &format!("{:>5}  {:>12}  {:>13}\n", "level", "diameter", "triangles");
         for (level, (&count, diameter)) in self.levels.iter().zip(&self.diameters).enumerate() {
             text += &format!("{level:>5}  {:>12}  {:>13}\n", short(*diameter), Grouped(count));
         }
         text
+    }
+}
+
+impl TimeStepSummary {
+    fn for_people(&self) -> String {
+        let at = |[x, y]: [f64; 2]| format!("at {}, {}", short(x), short(y));
+        let by_height =
+            |step: HeightTimeStep| format!("; {} s across triangles, {}", short(step.seconds), at(step.at));
+        let by_height = self.by_height.map_or_else(String::new, by_height);
+        format!("largest time step {} s along edges, {}{by_height}\n", short(self.seconds), at(self.at))
     }
 }
 

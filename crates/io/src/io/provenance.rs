@@ -50,6 +50,13 @@ impl Provenance {
         self
     }
 
+    /// Adds a line about the values in the file.
+    #[must_use]
+    pub fn with_line(mut self, key: &'static str, text: &str) -> Self {
+        self.lines.push((key, one_line(text)));
+        self
+    }
+
     /// Says what coordinates are, other than those of the plane that the mesh is in, if it is in one. Lengths
     /// stay in metres.
     #[must_use]

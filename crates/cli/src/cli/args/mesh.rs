@@ -52,6 +52,13 @@ pub struct MeshArguments {
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
     pub quantity: Vec<String>,
 
+    /// Least depth in files, in metres: nodes that are less deep are written with it
+    ///
+    /// As in 3: at the shore depths are 0, and such nodes fall dry. The mesh stays as it is. Headers say it,
+    /// and the report says how many nodes have it.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = finite, help_heading = "Output")]
+    pub least_depth: Option<f64>,
+
     #[command(flatten)]
     pub curve: ErrorCurveArguments,
 
@@ -68,4 +75,10 @@ pub struct MeshArguments {
 
     #[command(flatten)]
     pub space: SpaceArguments,
+}
+
+/// Reads a number that is finite.
+pub fn finite(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "write a number, as in 3 or 0.5".to_owned())
 }

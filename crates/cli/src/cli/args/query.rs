@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::input::InputArguments;
+use super::mesh::finite;
 use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_io::io::solver_rules::Solver;
 
@@ -26,6 +27,10 @@ pub struct CheckArguments {
     /// A value at the nodes, as for `meshbrush mesh`: `depth=EXPR` is the depth, in place of that of layers
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Rules")]
     pub quantity: Vec<String>,
+
+    /// Least depth in the file, as for `meshbrush mesh`
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = finite, help_heading = "Rules")]
+    pub least_depth: Option<f64>,
 
     /// Print the answer as one JSON object on standard output
     #[arg(long, help_heading = "Output")]

@@ -1,0 +1,104 @@
+//! The depths that files get: those of layers or of a quantity, no less than a least depth, and the largest
+//! time step that they allow.
+
+use serde::Serialize;
+
+use super::build::FinishedMesh;
+use meshbrush_core::layers::{EdgeTimes, LargestTimeStep};
+use meshbrush_mesh::mesh::{Extract, TriangleId};
+
+/// A least depth, and what it changed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LeastDepth {
+    /// The least depth in files, in metres.
+    pub depth: f64,
+    /// The nodes that had less.
+    pub raised: usize,
+}
+
+impl LeastDepth {
+    /// Raises depths to the least one, and counts the nodes that had less.
+    pub fn raise(depth: f64, depths: &mut [f64]) -> Self {
+        let lower = depths.iter_mut().filter(|of_node| **of_node < depth);
+        let raised = lower.map(|of_node| *of_node = depth).count();
+        Self { depth, raised }
+    }
+}
+
+/// The largest time step of a wave of 1 m with the Courant number 1 along every edge, and across every
+/// triangle.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct TimeStepSummary {
+    /// The time step by edges, in seconds.
+    pub seconds: f64,
+    /// The middle of the edge that decides it.
+    pub at: [f64; 2],
+    /// The time step by the smallest heights of triangles.
+    pub by_height: Option<HeightTimeStep>,
+}
+
+/// The largest time step with which no wave crosses a triangle along its smallest height.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct HeightTimeStep {
+    /// The time step, in seconds.
+    pub seconds: f64,
+    /// The middle of the triangle that decides it.
+    pub at: [f64; 2],
+}
+
+impl TimeStepSummary {
+    /// Returns the time steps of a mesh as files get it; `None` where no edge has water at an end, and in
+    /// degrees.
+    pub fn of(finished: &FinishedMesh, extract: &Extract, depths: &[f64]) -> Option<Self> {
+        let (ground, unit) = (finished.ground(), finished.unit());
+        let by_edge = LargestTimeStep::of(extract.view(), depths, unit, |ends| ground.length(ends))?;
+        let by_height = HeightTimeStep::of(finished, extract, depths);
+        Some(Self { seconds: by_edge.seconds, at: by_edge.at.into(), by_height })
+    }
+}
+
+impl HeightTimeStep {
+    fn of(finished: &FinishedMesh, extract: &Extract, depths: &[f64]) -> Option<Self> {
+        let times = EdgeTimes::new(depths, finished.unit())?;
+        let view = extract.view();
+        let step = |id: TriangleId| {
+            let corners = view.world_corners(id);
+            let [a, b, c] = view.triangle(id).vertices.map(|node| node.index());
+            let [p, q, r] = corners;
+            let sides = [[p, q], [q, r], [r, p]].map(|ends| finished.ground().length(ends));
+            let height = smallest_height(sides);
+            let across = [[a, b], [b, c], [c, a]].into_iter().filter_map(|ends| times.seconds(ends, height));
+            let seconds = across.min_by(f64::total_cmp)?;
+            Some(Self { seconds, at: ((p + q + r) / 3.0).into() })
+        };
+        let steps = (0..view.triangles().len()).map(TriangleId::from_index).filter_map(step);
+        // Of equal ones the first.
+        steps.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+}
+
+/// Returns the smallest height of a triangle with these sides.
+fn smallest_height([a, b, c]: [f64; 3]) -> f64 {
+    let half = 0.5 * (a + b + c);
+    // By the formula of Heron; rounding can make a flat triangle negative.
+    let area = (half * (half - a) * (half - b) * (half - c)).max(0.0).sqrt();
+    2.0 * area / a.max(b).max(c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smallest_height_stands_on_the_longest_side() {
+        assert_eq!(smallest_height([3.0, 4.0, 5.0]), 2.4);
+        assert_eq!(smallest_height([1.0, 1.0, 2.0]), 0.0);
+    }
+
+    #[test]
+    fn depths_are_raised_and_counted() {
+        let mut depths = [0.0, 3.0, 2.9, 50.0, -4.0];
+        assert_eq!(LeastDepth::raise(3.0, &mut depths), LeastDepth { depth: 3.0, raised: 3 });
+        assert_eq!(depths, [3.0, 3.0, 3.0, 50.0, 3.0]);
+    }
+}
