@@ -323,8 +323,7 @@ fn types_of_pieces_are_in_files_and_summary_and_a_misplaced_one_is_told() {
     let heads = file.lines().filter(|line| line.contains(" = Number of nodes for "));
     let heads: Vec<&str> = heads.map(|line| line.split_once(' ').unwrap().1).collect();
     let expected = [
-        "0 = Number of nodes for open boundary 1: open north",
-        "0 = Number of nodes for open boundary 2: open west",
+        "0 = Number of nodes for open boundary 1: open north, open west",
         "22 = Number of nodes for land boundary 1: open south",
         "0 = Number of nodes for land boundary 2: open east",
     ];
