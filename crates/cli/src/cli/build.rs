@@ -130,7 +130,8 @@ impl FinishedMesh {
     /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the
     /// impossible value.
     pub fn target_at(&self, point: DVec2) -> f64 {
-        self.built.field.target_by_rule(self.built.rule, &self.origin.paint, point)
+        let target = self.built.field.target_by_rule(self.built.rule, &self.origin.paint, point);
+        self.built.field.scale() * target
     }
 
     /// h̄ at every node, in world units. The meter counts nodes.
@@ -140,7 +141,11 @@ impl FinishedMesh {
     pub fn target_at_nodes(&self, extract: &Extract, meter: &Meter) -> Result<Vec<f64>, Cancelled> {
         let BuiltMesh { field, rule, .. } = &self.built;
         meter.expect(extract.nodes().len() as u64);
-        field.targets_at_nodes(*rule, &self.origin.paint, extract, || meter.add(NODES_AT_A_TIME))
+        let of_field =
+            field.targets_at_nodes(*rule, &self.origin.paint, extract, || meter.add(NODES_AT_A_TIME));
+        let mut targets = of_field?;
+        targets.iter_mut().for_each(|target| *target *= field.scale());
+        Ok(targets)
     }
 
     /// Returns the risk of the layers.
@@ -249,8 +254,9 @@ pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Fai
 /// # Errors
 /// Fails when the target is impossible somewhere, or a limit is reached.
 pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
+    let scale = read.scale;
     let origin = read.origin();
-    let mut builder = MeshBuilder::new(origin.spec.clone());
+    let mut builder = MeshBuilder::new(origin.spec.clone()).scaled(scale);
     let refinement = run(&mut builder, &origin.paint, terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
@@ -267,7 +273,7 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
 impl ToMesh {
     /// Returns what the mesh is made from.
     pub fn origin(self) -> MeshOrigin {
-        let Self { spec, paint, marks, unit, coordinates, paths: _ } = self;
+        let Self { spec, paint, marks, unit, coordinates, paths: _, scale: _ } = self;
         MeshOrigin { spec, paint, marks, unit, coordinates }
     }
 }

@@ -34,7 +34,7 @@ pub fn run(
     out: &mut dyn Write,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let input = Input::new(&typed.input)?;
+    let input = Input::new(&typed.input)?.scaled(typed.scale.unwrap_or(1.0));
     let quantities = typed_quantities(&typed.quantity)?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
     let finished = build(&input, terminal)?;

@@ -27,6 +27,8 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
     pub courant: Option<CourantFit>,
+    /// What h̄ of the mesh is multiplied by in files: less than 1 where its triangles were cut.
+    pub target_factor: f64,
     /// The least depth in files, if one is given and there are depths.
     pub least_depth: Option<LeastDepth>,
     /// The largest stable time step, if there are depths, and lengths are no degrees.
@@ -112,6 +114,7 @@ impl MeshDetails {
             provenance,
             depths,
             courant,
+            target_factor: 1.0,
             least_depth,
             largest_time_step,
             quality,

@@ -41,6 +41,8 @@ pub struct Input {
     pub settings: SavedSettings,
     /// Options whose lengths have a unit.
     lengths: Vec<LengthWithUnit>,
+    /// What all sizes are multiplied by.
+    scale: f64,
 }
 
 /// A mesh to make, and the texts about it.
@@ -58,6 +60,8 @@ pub struct ToMesh {
     pub coordinates: Coordinates,
     /// The paths of a project or a recipe.
     pub paths: Arc<PathPlan>,
+    /// What all targets are multiplied by; the largest diameter at the outline is already.
+    pub scale: f64,
 }
 
 impl Input {
@@ -88,7 +92,12 @@ impl Input {
             _ => {}
         }
         let lengths = LengthWithUnit::all(typed);
-        Ok(Self { project: typed.project.clone(), recipe, settings, lengths })
+        Ok(Self { project: typed.project.clone(), recipe, settings, lengths, scale: 1.0 })
+    }
+
+    /// Returns the input with all sizes multiplied by a number.
+    pub fn scaled(self, scale: f64) -> Self {
+        Self { scale, ..self }
     }
 
     /// Options that were given and change nothing, a sentence each.
@@ -132,6 +141,10 @@ impl Input {
             }
         };
         self.lengths.iter().try_for_each(|length| length.check(settings.unit))?;
+        let diameter = settings.boundary.diameter().map(|diameter| self.scale * diameter);
+        let boundary =
+            diameter.map_or(settings.boundary, |diameter| settings.boundary.with_diameter(diameter));
+        let settings = Settings { boundary, ..settings };
         let limits = Limits {
             max_triangles: settings.max_triangles,
             max_level: settings.max_level,
@@ -140,15 +153,13 @@ impl Input {
         };
         let lattice = Lattice::covering(settings.domain.bounds, settings.spacing, limits.most_triangles());
         let lattice = lattice.map_err(CoarseError::from)?;
-        self.settings
-            .domain
-            .boundary_diameter
-            .map_or(Ok(()), |diameter| check_resolvable(*diameter, &lattice))?;
+        let diameter = self.settings.domain.boundary_diameter;
+        diameter.map_or(Ok(()), |diameter| check_resolvable(self.scale * *diameter, &lattice))?;
         let spec = settings.mesh_spec_on(lattice, limits);
         // What is said about parts counts for every domain; else only fitted meshes are cleaned.
         let spec = MeshSpec { cleaning: self.settings.cleaning(spec.cleaning), ..spec };
         let Settings { boundary_marks: marks, unit, paths, .. } = settings;
-        Ok(ToMesh { spec, paint, marks, unit, coordinates, paths })
+        Ok(ToMesh { spec, paint, marks, unit, coordinates, paths, scale: self.scale })
     }
 
     fn read_project(&self, path: &Path, terminal: &mut Terminal) -> Result<(Settings, PaintLayers), Failure> {

@@ -10,7 +10,8 @@ use super::failure::Failure;
 use super::input::Input;
 use super::output::Output;
 use super::output_coordinates::OutputCoordinates;
-use super::requested_files::{RequestedFiles, write_files};
+use super::requested_files::RequestedFiles;
+use super::sequence::{self, SequenceStart};
 use super::standard_output;
 use super::summary::Summary;
 use super::terminal::Terminal;
@@ -33,17 +34,12 @@ pub fn run(
     out: &mut dyn Write,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let input = Input::new(&typed.input)?;
+    let input = Input::new(&typed.input)?.scaled(checked_scale(typed)?);
     let by_options = RequestedFiles::of_options(typed)?;
     let outputs = &by_options.outputs;
     check_stdout(typed, outputs)?;
     note_without_effect(typed, &input, outputs, terminal);
-    let mut files = input.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
-    files.push(by_options);
-    let inputs = input.files();
-    let mut outputs = files.iter().flat_map(|files| &files.outputs);
-    outputs.try_for_each(|output| output.check_places(&inputs))?;
-    typed.curve.check(&inputs)?;
+    let files = all_files(typed, &input, by_options)?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
@@ -58,7 +54,7 @@ pub fn run(
     let given_depths = depths.next().map(|depth| depth.at_nodes(&extract)).transpose()?;
     let given_depths = given_depths.as_ref().map(|depth| &*depth.values);
     let uses = DetailUses { json: typed.json, node_data, given_depths, least_depth: typed.least_depth };
-    let (details, summary) = terminal.while_working("measuring the mesh", || {
+    let (details, mut summary) = terminal.while_working("measuring the mesh", || {
         let details =
             wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, coordinates, uses));
         let details = details.transpose().map_err(|error| Failure::Work(error.to_string()))?;
@@ -70,11 +66,12 @@ pub fn run(
     }
     note_least_depth(typed.least_depth, details.as_ref(), terminal);
     note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
-    if let Some(details) = details.as_ref().filter(|_| writes) {
-        write_files(&files, &finished, &extract, details, coordinates, terminal)?;
-    }
     let origin = || provenance(&finished, line, &input, OutputCoordinates::Plane);
     typed.curve.write((&finished, &extract), details.as_ref(), origin, terminal)?;
+    if let Some(details) = details.filter(|_| writes) {
+        let start = SequenceStart { finished: &finished, extract: &extract, files: &files, coordinates };
+        summary.sequence = start.write(typed.sequence, details, uses, terminal)?;
+    }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
         writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;
@@ -85,6 +82,33 @@ pub fn run(
             Grouped(broken)
         ))),
         _ => Ok(()),
+    }
+}
+
+/// Returns the files of the recipe and of the options, which can be written.
+fn all_files(
+    typed: &MeshArguments,
+    input: &Input,
+    by_options: RequestedFiles,
+) -> Result<Vec<RequestedFiles>, Failure> {
+    let mut files = input.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
+    files.push(by_options);
+    let inputs = input.files();
+    let first_files = sequence::first_files(typed, files.clone())?;
+    let mut outputs = first_files.iter().flat_map(|files| &files.outputs);
+    outputs.try_for_each(|output| output.check_places(&inputs))?;
+    typed.curve.check(&inputs)?;
+    Ok(files)
+}
+
+/// Returns what all sizes are multiplied by.
+fn checked_scale(typed: &MeshArguments) -> Result<f64, Failure> {
+    match typed.scale {
+        Some(scale) if typed.curve.certificate.is_some() => Err(Failure::Usage(format!(
+            "--scale {scale}: a certificate states the targets of the layers themselves. Leave one of them out, or \
+             change the sizes in the document."
+        ))),
+        scale => Ok(scale.unwrap_or(1.0)),
     }
 }
 

@@ -32,6 +32,7 @@ mod replay;
 mod report;
 pub mod requested_files;
 mod run_clock;
+pub mod sequence;
 mod space_look;
 mod standard_output;
 pub mod summary;

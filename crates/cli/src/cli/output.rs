@@ -21,7 +21,7 @@ use meshbrush_render::render::look::{Look, MapPlace};
 use meshbrush_render::render::picture_size::{PictureGround, PictureSize, SizeError, UnknownGround};
 
 /// A file to be written, or standard output.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Output {
     /// `None` for standard output.
     path: Option<PathBuf>,
@@ -73,6 +73,20 @@ impl Output {
                 Err(Failure::Usage(format!("{problem}, and standard output is one. Name a file with -o.")))
             }
         }
+    }
+
+    /// Returns the file with a number in its name, as sea_2.14 for sea.14.
+    pub fn numbered(&self, number: u32) -> Self {
+        let named = |path: &PathBuf| {
+            let mut name = path.file_stem().unwrap_or_default().to_owned();
+            name.push(format!("_{number}"));
+            if let Some(ending) = path.extension() {
+                name.push(".");
+                name.push(ending);
+            }
+            path.with_file_name(name)
+        };
+        Self { path: self.path.as_ref().map(named), ..*self }
     }
 
     /// Returns whether it is standard output.
@@ -208,7 +222,7 @@ pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
 }
 
 /// The look that is asked for, before there is a mesh.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct RequestedLook {
     size: PictureSize,
     edges: bool,

@@ -14,7 +14,7 @@ const DEFAULT_NAME: &str = "quantity";
 const TAKEN: [&str; 3] = ["target_diameter", "boundary", "level"];
 
 /// A value at the nodes, before there is a mesh.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct NamedQuantity {
     name: String,
     formula: Formula,

@@ -30,7 +30,7 @@ const MOST_FILES: usize = 1000;
 const MOST_QUANTITIES: usize = 100;
 
 /// Files with one look and the same values at the nodes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct RequestedFiles {
     /// The files.
     pub outputs: Vec<Output>,
@@ -105,6 +105,12 @@ impl RequestedFiles {
             fault.at(index)
         })?;
         Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat })
+    }
+
+    /// Returns the same with a number in the name of each file.
+    pub fn numbered(&self, number: u32) -> Self {
+        let outputs = self.outputs.iter().map(|output| output.numbered(number)).collect();
+        Self { outputs, look: self.look, quantities: self.quantities.clone(), is_flat: self.is_flat }
     }
 
     /// Returns the quantity that is the depth, if one is and a file has it.
@@ -206,7 +212,9 @@ pub fn write_files(
         true => {
             let (what, meter) = ("target diameters at nodes", Meter::default());
             let targets = terminal.while_metered(what, &meter, || finished.target_at_nodes(extract, &meter));
-            targets.expect("nobody cancels this meter")
+            let mut targets = targets.expect("nobody cancels this meter");
+            targets.iter_mut().for_each(|target| *target *= details.target_factor);
+            targets
         }
         false => Vec::new(),
     };

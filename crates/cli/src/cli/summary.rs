@@ -10,6 +10,7 @@ use super::details::{
     SurfaceSummary,
 };
 use super::quality::QualitySummary;
+use super::sequence::SequenceMesh;
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
 use meshbrush_core::field::RefinementRule;
@@ -72,6 +73,9 @@ pub struct Summary {
     /// The triangles across straits, if a layer asks for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub straits: Option<StraitSummary>,
+    /// The meshes of a sequence, each with every node of the one before, if several are asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sequence: Option<Vec<SequenceMesh>>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -329,6 +333,7 @@ impl Summary {
                 .zip(finished.built().surface.as_ref())
                 .map(|(fit, rule)| SurfaceSummary::new(fit, rule.samples().count())),
             straits: details.and_then(|details| details.straits.clone()),
+            sequence: None,
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
             capped: finished.capped,

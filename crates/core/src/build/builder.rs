@@ -30,6 +30,8 @@ pub struct MeshBuilder {
     step: Option<BuildStep>,
     /// Triangles that the level cap left coarser than their target.
     capped: usize,
+    /// See [`Self::scaled`].
+    scale: f64,
 }
 
 /// The current step of the work, with everything that it needs.
@@ -155,7 +157,14 @@ impl MeshBuilder {
             Some(domain) => BuildStep::Grid(domain.with_boundary(spec.boundary)),
             None => BuildStep::Index(DomainOnLatticeBuilder::new(&spec.domain, spec.boundary, &spec.lattice)),
         };
-        Self { spec, given_field, given_samples, spare, step: Some(step), capped: 0 }
+        Self { spec, given_field, given_samples, spare, step: Some(step), capped: 0, scale: 1.0 }
+    }
+
+    /// Returns the builder of a mesh whose targets are h̄ times a number ([`SizeField::scaled`]). A field
+    /// that the caller gave is taken as it is.
+    #[must_use]
+    pub fn scaled(self, scale: f64) -> Self {
+        Self { scale, ..self }
     }
 
     /// Returns the description of the mesh.
@@ -263,7 +272,8 @@ impl MeshBuilder {
         if let Some(field) = self.given_field.take() {
             return Ok(self.begin_refinement(domain, field, mesh));
         }
-        let field = Arc::new(SizeField::new(self.spec.field.clone(), lattice));
+        let field = SizeField::new(self.spec.field.clone(), lattice);
+        let field = Arc::new(if self.scale == 1.0 { field } else { field.scaled(self.scale) });
         if self.spec.rule == RefinementRule::Vertex {
             // The rule checks h̄ at each node itself.
             return Ok(self.begin_refinement(domain, field, mesh));

@@ -41,6 +41,11 @@ impl EdgeLengths {
         Self { table, scale, halvings: lattice.halvings() }
     }
 
+    /// Returns the lengths divided by a number, to be compared with targets that are multiplied by it.
+    pub fn divided_by(&self, scale: f64) -> Self {
+        Self { table: self.table.iter().map(|length| length / scale).collect(), ..self.clone() }
+    }
+
     /// Returns the lengths of all limits.
     pub fn table(&self) -> &Arc<[f64]> {
         &self.table

@@ -56,6 +56,8 @@ pub struct SizeField {
     pub(super) stack: Stack,
     /// See [`settled::square_bits`].
     square_bits: Box<[u8; LEVELS]>,
+    /// See [`Self::scaled`].
+    scale: f64,
 }
 
 impl SizeField {
@@ -73,9 +75,26 @@ impl SizeField {
         Self::with_lengths(spec, self.lattice(), self.edge_lengths().clone())
     }
 
+    /// Returns the field for a mesh whose targets are h̄ times a number, limits and gradation included.
+    /// Values of h̄ stay as they are; what they are compared with is divided by the number.
+    ///
+    /// # Panics
+    /// Panics when the number is not positive and finite.
+    #[must_use]
+    pub fn scaled(&self, scale: f64) -> Self {
+        assert!(scale > 0.0 && scale.is_finite(), "a scale of {scale}");
+        let lengths = self.edge_lengths().divided_by(scale / self.scale);
+        Self { scale, ..Self::with_lengths(self.spec.clone(), self.lattice(), lengths) }
+    }
+
+    /// Returns what h̄ is multiplied by in the mesh; see [`Self::scaled`].
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
     fn with_lengths(spec: SizeFieldSpec, lattice: &Lattice, edge_lengths: EdgeLengths) -> Self {
         let stack = spec.compile(lattice, edge_lengths);
-        Self { spec, stack, square_bits: Box::new(settled::square_bits(lattice)) }
+        Self { spec, stack, square_bits: Box::new(settled::square_bits(lattice)), scale: 1.0 }
     }
 
     /// Returns the field of some layers without the others that ask for smaller diameters.
@@ -100,7 +119,7 @@ impl SizeField {
             outline: self.spec.outline.clone(),
             ..self.spec
         };
-        Some(Self { spec, stack, square_bits: self.square_bits.clone() })
+        Some(Self { spec, stack, square_bits: self.square_bits.clone(), scale: self.scale })
     }
 
     /// Returns this field without models of its functions: searches use bounds only.
@@ -132,7 +151,7 @@ impl SizeField {
         self.stack.asks_with(&mut KnownParts::default(), paint, corners, level, None)
     }
 
-    /// Returns the diameters of triangles, which h̄ is compared with.
+    /// Returns the diameters of triangles, which h̄ is compared with; divided by [`Self::scale`].
     pub fn edge_lengths(&self) -> &EdgeLengths {
         self.stack.edge_lengths()
     }

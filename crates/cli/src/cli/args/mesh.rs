@@ -52,6 +52,22 @@ pub struct MeshArguments {
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
     pub quantity: Vec<String>,
 
+    /// Multiply all sizes by this number: target diameters with their limits and gradation, and the largest
+    /// diameter at the outline
+    ///
+    /// As in 0.5, for a study of convergence: the coarse grid stays, and off the outline the nodes of a mesh
+    /// are nodes of the mesh of half its sizes. --sequence keeps those of the outline, too.
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Output")]
+    pub scale: Option<f64>,
+
+    /// Write so many meshes, each with every node of the one before and four triangles for each of its: to
+    /// sea_1.14, sea_2.14 … for -o sea.14
+    ///
+    /// The first is the mesh of the document. Nodes keep their coordinates and numbers, and the domain is
+    /// that of the first mesh.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16), help_heading = "Output")]
+    pub sequence: Option<u32>,
+
     /// Least depth in files, in metres: nodes that are less deep are written with it
     ///
     /// As in 3: at the shore depths are 0, and such nodes fall dry. The mesh stays as it is. Headers say it,
@@ -81,4 +97,10 @@ pub struct MeshArguments {
 pub fn finite(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "write a number, as in 3 or 0.5".to_owned())
+}
+
+/// Reads a number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let number = finite(text).ok().filter(|number| *number > 0.0);
+    number.ok_or_else(|| "write a number above 0, as in 0.5".to_owned())
 }

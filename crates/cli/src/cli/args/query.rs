@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::input::InputArguments;
-use super::mesh::finite;
+use super::mesh::{finite, positive};
 use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_io::io::solver_rules::Solver;
 
@@ -27,6 +27,10 @@ pub struct CheckArguments {
     /// A value at the nodes, as for `meshbrush mesh`: `depth=EXPR` is the depth, in place of that of layers
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Rules")]
     pub quantity: Vec<String>,
+
+    /// Multiply all sizes by this number, as for `meshbrush mesh`
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Rules")]
+    pub scale: Option<f64>,
 
     /// Least depth in the file, as for `meshbrush mesh`
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = finite, help_heading = "Rules")]

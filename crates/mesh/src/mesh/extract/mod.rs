@@ -5,6 +5,7 @@ mod extract;
 mod boundary;
 mod patch;
 mod pieces;
+mod refined;
 mod statistics;
 mod view;
 

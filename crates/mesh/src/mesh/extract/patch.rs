@@ -240,7 +240,7 @@ impl Assembly {
 }
 
 /// Links triangles that share an edge, in opposite directions, as neighbours.
-fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
+pub(super) fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
     // Edges with one known triangle.
     let mut open: NumberMap<(NodeId, NodeId), (usize, usize)> = NumberMap::default();
     for (index, j) in edges {
