@@ -11,7 +11,7 @@ use meshbrush_core::layers::{NodeDepths, PaintLayers, SizeField};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::{
-    DEPTH, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
+    CellShape, DEPTH, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
 };
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::{Space, View};
@@ -145,6 +145,7 @@ impl MeshExport {
             heights,
             boundary: &boundary,
             parts: &extract.part_numbers(),
+            cells: CellShape::OfFormat,
             provenance: &provenance_of(settings, self.mesh.fingerprint(), is_model),
         };
         let nodes = settings.domain.nodes_in(&Coordinates::Geographic, extract).filter(|_| !is_model);

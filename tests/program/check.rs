@@ -108,8 +108,10 @@ fn a_mesh_that_keeps_the_rules_passes_and_one_that_breaks_them_fails_after_its_a
 #[test]
 fn links_of_squares_vanish_and_places_are_in_the_coordinates_of_the_file() {
     let folder = Folder::new("check-links");
-    let (_, answer) = check(&folder, "--domain 0,0,4,4 --spacing 1", "delft3dfm");
-    assert_eq!((count(&answer, "short_flow_link"), count(&answer, "skewed_flow_link")), (16, 0));
+    for (cells, short) in [("", 0), ("--cells triangles", 16)] {
+        let (_, answer) = check(&folder, &format!("--domain 0,0,4,4 --spacing 1 {cells}"), "delft3dfm");
+        assert_eq!((count(&answer, "short_flow_link"), count(&answer, "skewed_flow_link")), (short, 0));
+    }
     folder.file("bay.geojson", BAY);
     let bay = "--region bay.geojson --projection auto --spacing 100000";
     for (crs, coordinates, largest) in

@@ -164,6 +164,9 @@ fn boundaries_and_targets_of_a_sequence_follow() {
         assert_eq!((name, 2 * edges(*nodes)), (finer, edges(*more)), "{name}");
     }
     let table = |name: &str| folder.read(name);
+    for (name, target) in [("sea_1.csv", ",0.3,"), ("sea_2.csv", ",0.15,")] {
+        assert!(table(name).lines().skip(1).all(|row| row.contains(target)), "h̄ is that of the mesh: {name}");
+    }
     assert_eq!(4 * (table("sea_1.csv").lines().count() - 1), table("sea_2.csv").lines().count() - 1);
 }
 

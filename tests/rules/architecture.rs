@@ -10,7 +10,7 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 34] = [
+const MODULES: [&str; 35] = [
     "text",
     "geometry",
     "mesh",
@@ -25,6 +25,7 @@ const MODULES: [&str; 34] = [
     "build",
     "path",
     "explain",
+    "cells",
     "quality",
     "document",
     "drawing",

@@ -14,5 +14,6 @@ pub mod paint;
 pub mod build;
 pub mod path;
 pub mod explain;
+pub mod cells;
 pub mod quality;
 pub mod document;

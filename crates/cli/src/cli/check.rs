@@ -18,7 +18,7 @@ use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
 };
-use meshbrush_io::io::{DEPTH, NodeValues};
+use meshbrush_io::io::{DEPTH, MeshData, NodeValues};
 use meshbrush_mesh::text::{Grouped, Number};
 
 /// How many places of a rule are printed one by one; JSON has all.
@@ -63,7 +63,8 @@ pub fn run(
         target_diameter: &[],
     };
     let placed = exported.in_coordinates()?;
-    let data = exported.data(&values, true);
+    let cells = typed.cells.unwrap_or_default();
+    let data = MeshData { cells, ..exported.data(&values, true) };
     let written = WrittenMesh::of(placed.as_ref().unwrap_or(&extract), &data, typed.solver);
     let broken = terminal.while_working("checking the rules", || broken_rules(&written, typed.solver));
     let meaning = provenance.entries().find_map(|(key, text)| (key == "coordinates").then_some(text));

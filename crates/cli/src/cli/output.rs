@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::space_look::RequestedSpace;
 use super::standard_output::StandardOutput;
 use meshbrush_core::earth::DegreeStyle;
+use meshbrush_io::io::CellShape;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{KeyFault, MeshData, Meter, ThirdCoordinate, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
@@ -106,6 +107,20 @@ impl Output {
     /// Whether the name of the format was needed, beside the name of the file.
     pub fn is_named(&self) -> bool {
         self.is_named
+    }
+
+    /// Returns whether files of its format can have these cells.
+    pub fn can_have(&self, cells: CellShape) -> bool {
+        cells != CellShape::Squares || self.format.holds_squares()
+    }
+
+    /// Returns whether it has quadrilaterals where these cells are asked for.
+    pub fn has_squares(&self, cells: CellShape) -> bool {
+        match cells {
+            CellShape::OfFormat => self.format.wants_squares(),
+            CellShape::Triangles => false,
+            CellShape::Squares => self.format.holds_squares(),
+        }
     }
 
     /// Whether it is the binary form of a format that is text otherwise.

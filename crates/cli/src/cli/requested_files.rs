@@ -12,14 +12,16 @@ use super::output_coordinates::OutputCoordinates;
 use super::quantities::{NamedQuantity, QuantityError, expression, parse_quantities, typed_quantities};
 use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
+use meshbrush_core::cells::{LARGEST_COSINE, LinkFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{
-    DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
+    CellShape, DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE,
+    ThirdCoordinate, UnknownCells, joined_cells,
 };
 use meshbrush_mesh::mesh::Extract;
-use meshbrush_mesh::text::LengthUnit;
+use meshbrush_mesh::text::{Grouped, LengthUnit, digits};
 use meshbrush_render::render::Image;
 use meshbrush_render::render::export::{ExportFormat, NO_SVG_IN_SPACE};
 use meshbrush_render::render::look::Look;
@@ -28,6 +30,9 @@ use meshbrush_render::render::look::Look;
 const MOST_FILES: usize = 1000;
 /// Most quantities of a file: each takes a number for each node.
 const MOST_QUANTITIES: usize = 100;
+
+/// Why a file cannot have quadrilaterals.
+const TRIANGLES_ONLY: &str = "has triangles only; .nc, .gr3, .ll, .2dm and .mesh have quadrilaterals.";
 
 /// Files with one look and the same values at the nodes.
 #[derive(Clone, Debug)]
@@ -38,6 +43,8 @@ pub struct RequestedFiles {
     quantities: Vec<NamedQuantity>,
     /// Whether the third coordinate is 0, and not the height of a surface.
     is_flat: bool,
+    /// The cells of formats that can have quadrilaterals.
+    cells: CellShape,
 }
 
 /// Refuses too many values of an option.
@@ -64,7 +71,11 @@ impl RequestedFiles {
         if look.is_in_space() && outputs.iter().any(Output::is_vector_picture) {
             return Err(Failure::Usage(format!("--view space: {NO_SVG_IN_SPACE}.")));
         }
-        Ok(Self { outputs, look, quantities, is_flat: typed.flat })
+        let cells = typed.cells.unwrap_or_default();
+        if let Some(output) = outputs.iter().find(|output| !output.can_have(cells)) {
+            return Err(Failure::Usage(format!("--cells squares: {} {TRIANGLES_ONLY}", output.name())));
+        }
+        Ok(Self { outputs, look, quantities, is_flat: typed.flat, cells })
     }
 
     /// Returns the files that a recipe requests, in its order.
@@ -104,13 +115,19 @@ impl RequestedFiles {
             };
             fault.at(index)
         })?;
-        Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat })
+        let cells = saved.cells.as_deref().map(str::parse).transpose();
+        let cells = cells.map_err(|error: UnknownCells| KeyFault::value("cells", error.to_string()))?;
+        let cells = cells.unwrap_or_default();
+        if !file.can_have(cells) {
+            return Err(KeyFault::value("cells", format!("the file {TRIANGLES_ONLY}")));
+        }
+        Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat, cells })
     }
 
     /// Returns the same with a number in the name of each file.
     pub fn numbered(&self, number: u32) -> Self {
         let outputs = self.outputs.iter().map(|output| output.numbered(number)).collect();
-        Self { outputs, look: self.look, quantities: self.quantities.clone(), is_flat: self.is_flat }
+        Self { outputs, quantities: self.quantities.clone(), ..*self }
     }
 
     /// Returns the quantity that is the depth, if one is and a file has it.
@@ -129,6 +146,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
     let SavedOutput {
         file: _,
         binary,
+        cells: _,
         quantities,
         flat,
         size,
@@ -230,7 +248,7 @@ pub fn write_files(
             look.missing_furniture().iter().for_each(|note| terminal.note(note));
         }
         let quantities = files.values_at_nodes(&exported, Vec::new())?;
-        let data = exported.data(&quantities, files.is_flat);
+        let data = MeshData { cells: files.cells, ..exported.data(&quantities, files.is_flat) };
         for output in &files.outputs {
             let meter = interruption.meter();
             let write = || exported.write(output, placed, &data, &look, &meter);
@@ -239,11 +257,33 @@ pub fn write_files(
             for path in written? {
                 terminal.say(&format!("wrote {}{}", path.display(), output.caption(&look)));
             }
+            if output.has_squares(files.cells) {
+                terminal.say(&links_in_words(output, placed, &data));
+            }
         }
     }
     let notes = requested.iter().filter_map(|files| files.closed_note(details));
     notes.take(1).for_each(|note| terminal.note(&note));
     Ok(())
+}
+
+/// Returns a sentence about the cells of a file with quadrilaterals, and about the links between them.
+fn links_in_words(output: &Output, mesh: &Extract, data: &MeshData) -> String {
+    let (cells, figures) = joined_cells(mesh, data);
+    let LinkFigures { links, short, skewed, not_orthogonal, .. } = figures;
+    let joined = cells.joined_count();
+    let share = 100.0 * not_orthogonal as f64 / links.max(1) as f64;
+    format!(
+        "{} has {} quadrilaterals and {} triangles. Of {} links between them {} are too short for Delft3D-FM, {} cross \
+         their edge with a cosine above {LARGEST_COSINE}, and {} % with one above 0.02.",
+        output.name(),
+        Grouped(joined),
+        Grouped(cells.list().len() - joined),
+        Grouped(links),
+        Grouped(short),
+        Grouped(skewed),
+        digits(share, 2),
+    )
 }
 
 impl RequestedFiles {
@@ -363,7 +403,8 @@ impl ExportedMesh<'_> {
         let MeshDetails { boundary, parts, .. } = details;
         let surface = quantities.iter().find(|values| values.name == SURFACE && !is_flat);
         let heights = surface.map(|surface| &*surface.values);
-        MeshData { target_diameter, quantities, heights, boundary, parts, provenance }
+        let cells = CellShape::OfFormat;
+        MeshData { target_diameter, quantities, heights, boundary, parts, cells, provenance }
     }
 
     /// Returns the nodes and triangles with other coordinates, if these are not those of the mesh.

@@ -32,6 +32,8 @@ pub struct FormatSpec {
     pub has_targets: bool,
     /// Whether a coastal solver finds its open boundary in the files.
     pub has_open_boundary: bool,
+    /// Whether its files can have quadrilaterals.
+    pub squares: SquareCells,
     /// What the third coordinate of its nodes is.
     pub third: ThirdCoordinate,
     /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
@@ -54,12 +56,24 @@ impl FormatSpec {
             size: TypicalSize { bytes: 50.0, bytes_per_digit: 5.0 },
             has_targets: false,
             has_open_boundary: false,
+            squares: SquareCells::Impossible,
             third: ThirdCoordinate::None,
             beside: &[],
             write,
             write_binary: None,
         }
     }
+}
+
+/// Whether the files of a format can have quadrilaterals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SquareCells {
+    /// There are triangles only.
+    Impossible,
+    /// They can, and have triangles unless a person wants squares.
+    Possible,
+    /// The solver wants them: pairs are joined unless a person wants triangles.
+    Usual,
 }
 
 /// The third coordinate of nodes in the files of a format.

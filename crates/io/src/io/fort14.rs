@@ -19,9 +19,11 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, StringKind};
+use super::format_spec::SquareCells;
+use super::written_cells::{CellShape, WrittenCells};
 use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
-use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+use meshbrush_mesh::mesh::{Extract, NodeId};
 
 /// ADCIRC.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -50,7 +52,9 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         joins_open: true,
         number_of_closed: adcirc_number,
     };
-    write_dialect(out, mesh, data, &dialect)
+    // ADCIRC has no quadrilaterals.
+    let data = MeshData { cells: CellShape::Triangles, ..*data };
+    write_dialect(out, mesh, &data, &dialect)
 }
 
 /// What ADCIRC's file and SCHISM's differ in.
@@ -75,14 +79,19 @@ pub(super) fn write_dialect(
     let strings = BoundaryStrings::new(mesh, data, dialect.format, dialect.is_open)?;
     let strings = if dialect.joins_open { strings.with_open_joined() } else { strings };
     writeln!(out, "{}", data.provenance.line())?;
-    writeln!(out, "{} {}", mesh.triangles().len(), mesh.nodes().len())?;
+    let cells = WrittenCells::new(mesh, data, SquareCells::Possible);
+    writeln!(out, "{} {}", cells.count(), mesh.nodes().len())?;
     write_rows(out, mesh.nodes().len(), |out, node| {
         let p = mesh.world(NodeId::from_index(node));
         writeln!(out, "{} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(data.depth(node)))
     })?;
-    write_rows(out, mesh.triangles().len(), |out, id| {
-        let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
-        writeln!(out, "{} 3 {a} {b} {c}", id + 1)
+    write_rows(out, cells.count(), |out, id| {
+        let ([a, b, c], fourth) = cells.corners(id);
+        let (id, [a, b, c]) = (id + 1, [a, b, c].map(|node| node + 1));
+        match fourth {
+            None => writeln!(out, "{id} 3 {a} {b} {c}"),
+            Some(d) => writeln!(out, "{id} 4 {a} {b} {c} {}", d + 1),
+        }
     })?;
     write_strings(out, "open", &strings.open().collect::<Vec<_>>(), |_| 0)?;
     write_strings(out, "land", &strings.closed().collect::<Vec<_>>(), dialect.number_of_closed)

@@ -10,7 +10,7 @@
 use std::io::{self, Write};
 
 use super::fort14::{self, Dialect, number_of_land, write_dialect};
-use super::{FormatSpec, MeshData};
+use super::{FormatSpec, MeshData, SquareCells};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
@@ -20,6 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "SCHISM (hgrid.gr3): open boundaries, land and islands",
     size: fort14::SIZE,
     has_open_boundary: true,
+    squares: SquareCells::Possible,
     ..FormatSpec::new("gr3", &["gr3"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
@@ -28,6 +29,7 @@ pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
     purpose: "SCHISM (hgrid.ll): the same in degrees",
     size: fort14::SIZE,
     has_open_boundary: true,
+    squares: SquareCells::Possible,
     ..FormatSpec::new("ll", &["ll"], |out, mesh, data, meter| {
         write_in_degrees(&mut meter.count(out), mesh, data)
     })

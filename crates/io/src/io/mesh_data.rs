@@ -1,6 +1,6 @@
 use std::io::{self, Write};
 
-use super::Provenance;
+use super::{CellShape, Provenance};
 use meshbrush_core::domain::MeshBoundary;
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
@@ -21,6 +21,10 @@ pub struct MeshData<'a> {
     ///
     /// [`Extract::part_numbers`]: meshbrush_mesh::mesh::Extract::part_numbers
     pub parts: &'a [u32],
+    /// The cells of formats that can have quadrilaterals, [`MeshFormat::holds_squares`].
+    ///
+    /// [`MeshFormat::holds_squares`]: super::MeshFormat::holds_squares
+    pub cells: CellShape,
     /// The origin of the mesh, for all formats except `.csv`, whose readers take no comments.
     pub provenance: &'a Provenance,
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::atomic::{Draft, put_in_place};
-use super::format_spec::{FormatSpec, ThirdCoordinate, TypicalSize, WriteMesh};
+use super::format_spec::{FormatSpec, SquareCells, ThirdCoordinate, TypicalSize, WriteMesh};
 use super::formats::MESH_FORMATS;
 use super::{MeshData, Meter};
 use meshbrush_mesh::mesh::Extract;
@@ -30,6 +30,16 @@ impl MeshFormat {
     /// Returns whether h̄ at the nodes is in its files; the others are written without reading it.
     pub fn has_targets(self) -> bool {
         self.spec.has_targets
+    }
+
+    /// Returns whether its files can have quadrilaterals.
+    pub fn holds_squares(self) -> bool {
+        self.spec.squares != SquareCells::Impossible
+    }
+
+    /// Returns whether its solver wants them.
+    pub fn wants_squares(self) -> bool {
+        self.spec.squares == SquareCells::Usual
     }
 
     /// Returns what the third coordinate of its nodes is.

@@ -10,9 +10,10 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::BoundaryStrings;
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::written_cells::WrittenCells;
+use super::{FormatSpec, MeshData, Number, SquareCells, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
-use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+use meshbrush_mesh::mesh::{Extract, NodeId};
 use meshbrush_mesh::text::LengthUnit;
 
 /// MIKE.
@@ -20,6 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "MIKE 21 and MIKE 3 FM: open boundaries and land as codes",
     size: TypicalSize { bytes: 36.0, bytes_per_digit: 4.5 },
     has_open_boundary: true,
+    squares: SquareCells::Possible,
     ..FormatSpec::new("mesh", &["mesh"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
@@ -27,6 +29,8 @@ pub static FORMAT: FormatSpec = FormatSpec {
 const BATHYMETRY: [u32; 2] = [100_079, 1000];
 /// MIKE's number for triangles with corners only.
 const TRIANGLES: u32 = 21;
+/// MIKE's number for triangles and quadrilaterals.
+const MIXED: u32 = 25;
 
 /// Writes nodes with the height of the ground and their codes, and triangles.
 ///
@@ -44,9 +48,17 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         let (x, y, z) = (Number(p.x), Number(p.y), Number(data.ground(node)));
         writeln!(out, "{} {x} {y} {z} {}", node + 1, codes[node])
     })?;
-    writeln!(out, "{} 3 {TRIANGLES}", mesh.triangles().len())?;
-    write_rows(out, mesh.triangles().len(), |out, id| {
-        let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
-        writeln!(out, "{} {a} {b} {c}", id + 1)
+    let cells = WrittenCells::new(mesh, data, FORMAT.squares);
+    let has_fourth = cells.most_corners() == 4;
+    let kind = if has_fourth { MIXED } else { TRIANGLES };
+    writeln!(out, "{} {} {kind}", cells.count(), cells.most_corners())?;
+    write_rows(out, cells.count(), |out, id| {
+        let (corners, fourth) = cells.corners(id);
+        let [a, b, c] = corners.map(|node| node + 1);
+        match has_fourth {
+            false => writeln!(out, "{} {a} {b} {c}", id + 1),
+            // A triangle has 0 for the fourth node.
+            true => writeln!(out, "{} {a} {b} {c} {}", id + 1, fourth.map_or(0, |node| node + 1)),
+        }
     })
 }

@@ -97,6 +97,7 @@ pub mod ugrid;
 mod values;
 mod vertical;
 pub mod vtu;
+mod written_cells;
 #[cfg(feature = "gpkg")]
 mod wkb;
 mod wkt_projection;
@@ -111,7 +112,8 @@ pub use error::{Flaw, PlaceInFile, ReadError};
 pub use fault::{FaultPart, KeyFault, KeyStep, Mark, nearest_word};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use format_spec::{
-    FileGrid, FormatSpec, GridPlace, GridWindow, RasterFormatSpec, ReadRaster, ThirdCoordinate, TypicalSize,
+    FileGrid, FormatSpec, GridPlace, GridWindow, RasterFormatSpec, ReadRaster, SquareCells, ThirdCoordinate,
+    TypicalSize,
 };
 pub use given::{Given, GivenGrid};
 pub use interrupt::Interruption;
@@ -127,3 +129,4 @@ pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
 pub use values::TextValue;
 pub use vertical::{UnitOfLength, ValueFacts, ValueUnit, VerticalSystem};
+pub use written_cells::{CellShape, UnknownCells, joined_cells};

@@ -9,14 +9,16 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, SURFACE, ThirdCoordinate, TypicalSize, write_rows};
-use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+use super::written_cells::WrittenCells;
+use super::{FormatSpec, MeshData, Number, SURFACE, SquareCells, ThirdCoordinate, TypicalSize, write_rows};
+use meshbrush_mesh::mesh::{Extract, NodeId};
 
 /// SMS.
 pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
     size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
     has_open_boundary: true,
+    squares: SquareCells::Possible,
     third: ThirdCoordinate::Height,
     ..FormatSpec::new("2dm", &["2dm"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
@@ -31,9 +33,14 @@ const NODES_A_LINE: usize = 10;
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
     data.write_comments(out)?;
-    write_rows(out, mesh.triangles().len(), |out, id| {
-        let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
-        writeln!(out, "E3T {} {a} {b} {c} 1", id + 1)
+    let cells = WrittenCells::new(mesh, data, FORMAT.squares);
+    write_rows(out, cells.count(), |out, id| {
+        let ([a, b, c], fourth) = cells.corners(id);
+        let (id, [a, b, c]) = (id + 1, [a, b, c].map(|node| node + 1));
+        match fourth {
+            None => writeln!(out, "E3T {id} {a} {b} {c} 1"),
+            Some(d) => writeln!(out, "E4Q {id} {a} {b} {c} {} 1", d + 1),
+        }
     })?;
     let quantity = data.quantities.iter().find(|quantity| quantity.name != SURFACE);
     write_rows(out, mesh.nodes().len(), |out, node| {

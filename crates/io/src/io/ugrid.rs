@@ -1,12 +1,13 @@
 //! `.nc`: UGRID 1.0 in classic NetCDF, for Delft3D-FM and programs that read UGRID.
 //!
 //! The mesh is `mesh2d`: nodes, edges (each once, in the order of the triangles) and faces, which run
-//! anticlockwise. Numbers start at one (`start_index`). `mesh2d_node_z` is the height of the ground in
-//! metres, positive upwards. Further values at the nodes are `mesh2d_target_diameter` (h̄) and
-//! `mesh2d_quantity_…`; `mesh2d_level` is on faces. `mesh2d_boundary` has the marker of the piece of each
-//! boundary edge, 0 inside; the names of the pieces are its `flag_meanings`, with `_` for blanks and signs.
-//! Where types of pieces are set, `flag_types` has the type of each, likewise.
-//! UGRID has no strings of nodes.
+//! anticlockwise. Faces are quadrilaterals where the link between the two triangles of one would be too short
+//! for the solver ([`MeshCells`](meshbrush_core::cells::MeshCells)), unless triangles are asked for. Numbers
+//! start at one (`start_index`). `mesh2d_node_z` is the height of the ground in metres, positive upwards.
+//! Further values at the nodes are `mesh2d_target_diameter` (h̄) and `mesh2d_quantity_…`; `mesh2d_level` is
+//! on faces. `mesh2d_boundary` has the marker of the piece of each boundary edge, 0 inside; the names of the
+//! pieces are its `flag_meanings`, with `_` for blanks and signs. Where types of pieces are set, `flag_types`
+//! has the type of each, likewise. UGRID has no strings of nodes.
 //!
 //! A mesh in degrees has longitudes and latitudes in WGS 84; the coordinate system of others is not known.
 //! Global attributes describe the origin of the mesh.
@@ -15,15 +16,17 @@ use std::io::{self, Write};
 
 use super::netcdf_writer::{AttributeValue, Attributes, Dataset, VariableType, WriteRow, WrittenVariable};
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, Meter, TypicalSize};
-use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+use super::written_cells::WrittenCells;
+use super::{FormatSpec, MeshData, Meter, SquareCells, TypicalSize};
+use meshbrush_mesh::mesh::{Extract, MeshEdge, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
 /// UGRID.
 pub static FORMAT: FormatSpec = FormatSpec {
-    purpose: "Delft3D-FM (UGRID, NetCDF): with h̄ and boundary markers",
+    purpose: "Delft3D-FM (UGRID, NetCDF): squares and triangles, with h̄ and boundary markers",
     size: TypicalSize { bytes: 52.0, bytes_per_digit: 0.0 },
     has_targets: true,
+    squares: SquareCells::Usual,
     ..FormatSpec::new("ugrid", &["nc"], |mut out, mesh, data, meter| {
         write_metered(&mut out, mesh, data, meter)
     })
@@ -36,7 +39,7 @@ const FACES: usize = 2;
 const CORNERS: usize = 3;
 const TWO: usize = 4;
 
-/// The value in place of a node that a face does not have; triangles have all.
+/// The value in place of the fourth node of a triangle beside quadrilaterals.
 const NO_NODE: i32 = -999;
 
 /// Writes the mesh.
@@ -52,23 +55,25 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// # Errors
 /// Fails as [`write()`] does, and when the work was cancelled.
 pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
-    let edges = edge_count(mesh);
+    let cells = &WrittenCells::new(mesh, data, FORMAT.squares);
+    let edges = edge_count(mesh) - cells.joined_count();
     let pieces = TrianglePieces::new(mesh, data.boundary);
     let mut variables =
         vec![topology(), coordinate_system(data), coordinate(mesh, data, 0), coordinate(mesh, data, 1)];
     variables.push(on_nodes(data, "mesh2d_node_z".into(), ground_attributes(), |node| data.ground(node)));
     variables.extend(node_values(data));
-    variables.extend([edge_nodes(mesh), boundary(mesh, data, &pieces), face_nodes(mesh), levels(mesh)]);
-    let dataset = Dataset { dimensions: dimensions(mesh, edges), attributes: origin(data), variables };
+    variables.extend([edge_nodes(mesh, cells), boundary(mesh, data, &pieces, cells)]);
+    variables.extend([face_nodes(cells), levels(mesh, cells)]);
+    let dataset = Dataset { dimensions: dimensions(mesh, edges, cells), attributes: origin(data), variables };
     dataset.write(out, meter)
 }
 
-fn dimensions(mesh: &Extract, edges: usize) -> Vec<(&'static str, usize)> {
+fn dimensions(mesh: &Extract, edges: usize, cells: &WrittenCells<'_>) -> Vec<(&'static str, usize)> {
     vec![
         ("mesh2d_nNodes", mesh.nodes().len()),
         ("mesh2d_nEdges", edges),
-        ("mesh2d_nFaces", mesh.triangles().len()),
-        ("mesh2d_nMax_face_nodes", 3),
+        ("mesh2d_nFaces", cells.count()),
+        ("mesh2d_nMax_face_nodes", cells.most_corners()),
         ("Two", 2),
     ]
 }
@@ -201,15 +206,15 @@ fn real<'a>(
     WrittenVariable { name, kind: VariableType::Double, dimensions: vec![NODES], attributes, rows, write_row }
 }
 
-/// Returns a variable of whole numbers whose rows are those of the triangles.
+/// Returns a variable of whole numbers that is written in so many rows: of triangles, or of cells.
 fn whole<'a>(
     name: &str,
     dimensions: Vec<usize>,
     attributes: Attributes,
-    mesh: &Extract,
+    rows: usize,
     write_row: WriteRow<'a>,
 ) -> WrittenVariable<'a> {
-    let (name, rows) = (name.to_owned(), mesh.triangles().len());
+    let name = name.to_owned();
     WrittenVariable { name, kind: VariableType::Int, dimensions, attributes, rows, write_row }
 }
 
@@ -217,34 +222,55 @@ fn write_node(out: &mut Vec<u8>, node: usize) -> io::Result<()> {
     out.write_all(&(node as i32 + 1).to_be_bytes())
 }
 
-fn edge_nodes<'a>(mesh: &'a Extract) -> WrittenVariable<'a> {
+/// Returns the edges of a cell that no triangle with a lower number than `triangle` has.
+fn first_edges<'a>(
+    mesh: &'a Extract,
+    cells: &'a WrittenCells<'_>,
+    triangle: usize,
+) -> impl Iterator<Item = MeshEdge> + 'a {
+    let edges = mesh.first_edges_of(TriangleId::from_index(triangle));
+    edges.filter(move |edge| cells.has_edge(triangle, edge.ends))
+}
+
+fn edge_nodes<'a>(mesh: &'a Extract, cells: &'a WrittenCells<'_>) -> WrittenVariable<'a> {
     let attributes = vec![
         ("cf_role", "edge_node_connectivity".into()),
         ("long_name", "the two nodes of each edge".into()),
         ("start_index", 1.into()),
     ];
     let write_row = Box::new(|out: &mut Vec<u8>, triangle: usize| {
-        let edges = mesh.first_edges_of(TriangleId::from_index(triangle));
+        let edges = first_edges(mesh, cells, triangle);
         edges.flat_map(|edge| edge.ends).try_for_each(|node| write_node(out, node))
     });
-    whole("mesh2d_edge_nodes", vec![EDGES, TWO], attributes, mesh, write_row)
+    whole("mesh2d_edge_nodes", vec![EDGES, TWO], attributes, mesh.triangles().len(), write_row)
 }
 
-fn face_nodes<'a>(mesh: &'a Extract) -> WrittenVariable<'a> {
+fn face_nodes<'a>(cells: &'a WrittenCells<'_>) -> WrittenVariable<'a> {
     let attributes = vec![
         ("cf_role", "face_node_connectivity".into()),
-        ("long_name", "the nodes of each triangle, anticlockwise".into()),
+        ("long_name", "the nodes of each face, anticlockwise".into()),
         ("start_index", 1.into()),
         ("_FillValue", NO_NODE.into()),
     ];
-    let write_row = Box::new(|out: &mut Vec<u8>, triangle: usize| {
-        let corners = mesh.cell(TriangleId::from_index(triangle)).corners;
-        corners.into_iter().try_for_each(|node| write_node(out, node))
+    let has_fourth = cells.most_corners() == 4;
+    let write_row = Box::new(move |out: &mut Vec<u8>, cell: usize| {
+        let (corners, fourth) = cells.corners(cell);
+        corners.into_iter().try_for_each(|node| write_node(out, node))?;
+        match fourth {
+            Some(node) => write_node(out, node),
+            None if has_fourth => out.write_all(&NO_NODE.to_be_bytes()),
+            None => Ok(()),
+        }
     });
-    whole("mesh2d_face_nodes", vec![FACES, CORNERS], attributes, mesh, write_row)
+    whole("mesh2d_face_nodes", vec![FACES, CORNERS], attributes, cells.count(), write_row)
 }
 
-fn boundary<'a>(mesh: &'a Extract, data: &MeshData, pieces: &'a TrianglePieces) -> WrittenVariable<'a> {
+fn boundary<'a>(
+    mesh: &'a Extract,
+    data: &MeshData,
+    pieces: &'a TrianglePieces,
+    cells: &'a WrittenCells<'_>,
+) -> WrittenVariable<'a> {
     let list = data.boundary.pieces().list();
     let names = data.boundary.present().map(|piece| one_word(&list[piece].name));
     let names: Vec<String> = std::iter::once("inside".to_owned()).chain(names).collect();
@@ -263,13 +289,13 @@ fn boundary<'a>(mesh: &'a Extract, data: &MeshData, pieces: &'a TrianglePieces) 
     }
     let write_row = Box::new(|out: &mut Vec<u8>, triangle: usize| {
         let mut pieces = pieces.of(triangle);
-        for edge in mesh.first_edges_of(TriangleId::from_index(triangle)) {
+        for edge in first_edges(mesh, cells, triangle) {
             let piece = if edge.on_boundary { pieces.next() } else { None };
             out.write_all(&piece.map_or(0, |piece| piece + 1).to_be_bytes())?;
         }
         Ok(())
     });
-    whole("mesh2d_boundary", vec![EDGES], attributes, mesh, write_row)
+    whole("mesh2d_boundary", vec![EDGES], attributes, mesh.triangles().len(), write_row)
 }
 
 /// Returns a name as the conventions of NetCDF want it in a list of words.
@@ -277,14 +303,15 @@ fn one_word(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "_-.+@".contains(c) { c } else { '_' }).collect()
 }
 
-fn levels<'a>(mesh: &'a Extract) -> WrittenVariable<'a> {
+fn levels<'a>(mesh: &'a Extract, cells: &'a WrittenCells<'_>) -> WrittenVariable<'a> {
     let attributes = vec![
-        ("long_name", "level of the triangle".into()),
+        ("long_name", "level of the triangle, or the lower one of two".into()),
         ("mesh", "mesh2d".into()),
         ("location", "face".into()),
     ];
-    let write_row = Box::new(|out: &mut Vec<u8>, triangle: usize| {
-        out.write_all(&(mesh.triangles()[triangle].level() as i32).to_be_bytes())
+    let write_row = Box::new(|out: &mut Vec<u8>, cell: usize| {
+        let levels = cells.triangles(cell).map(|triangle| mesh.triangles()[triangle].level());
+        out.write_all(&(levels[0].min(levels[1]) as i32).to_be_bytes())
     });
-    whole("mesh2d_level", vec![FACES], attributes, mesh, write_row)
+    whole("mesh2d_level", vec![FACES], attributes, cells.count(), write_row)
 }

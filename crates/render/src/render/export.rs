@@ -138,6 +138,16 @@ impl ExportFormat {
         matches!(self, Self::Mesh(format) if format.has_open_boundary())
     }
 
+    /// Returns whether its files can have quadrilaterals.
+    pub fn holds_squares(self) -> bool {
+        matches!(self, Self::Mesh(format) if format.holds_squares())
+    }
+
+    /// Returns whether its solver wants them: they are in its files unless triangles are asked for.
+    pub fn wants_squares(self) -> bool {
+        matches!(self, Self::Mesh(format) if format.wants_squares())
+    }
+
     /// Returns what the third coordinate of nodes in its files is.
     pub fn third_coordinate(self) -> ThirdCoordinate {
         match self {

@@ -7,8 +7,8 @@ use flate2::read::ZlibDecoder;
 use glam::{DVec2, DVec3, Vec3, dvec2};
 use meshbrush_core::domain::MeshBoundary;
 use meshbrush_io::io::{
-    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, glb, msh, node, obj, ply, png, sms,
-    stl, svg, vtu,
+    CellShape, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, glb, msh, node, obj,
+    ply, png, sms, stl, svg, vtu,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Extract, Limits, Mesh, NodeId, TriangleId};
@@ -83,7 +83,15 @@ impl Sample {
     fn data(&self) -> MeshData<'_> {
         let Self { targets, quantities, heights, boundary, parts, provenance, .. } = self;
         let heights = heights.as_deref();
-        MeshData { target_diameter: targets, quantities, heights, boundary, parts, provenance }
+        MeshData {
+            target_diameter: targets,
+            quantities,
+            heights,
+            boundary,
+            parts,
+            cells: CellShape::Triangles,
+            provenance,
+        }
     }
 
     /// Returns the names of the pieces, in the order of their markers.

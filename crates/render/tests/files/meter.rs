@@ -12,8 +12,8 @@ use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::png::{Behind, read_metered as read_png};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::{
-    GridPlace, MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff, netcdf, npy, shapes, stl, vtu,
-    write_file_metered,
+    CellShape, GridPlace, MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff, netcdf, npy,
+    shapes, stl, vtu, write_file_metered,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
@@ -59,7 +59,15 @@ impl Details {
 
     fn data<'a>(&'a self, targets: &'a [f64]) -> MeshData<'a> {
         let Self(boundary, parts, provenance) = self;
-        MeshData { target_diameter: targets, quantities: &[], heights: None, boundary, parts, provenance }
+        MeshData {
+            target_diameter: targets,
+            quantities: &[],
+            heights: None,
+            boundary,
+            parts,
+            cells: CellShape::Triangles,
+            provenance,
+        }
     }
 }
 

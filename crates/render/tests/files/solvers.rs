@@ -12,8 +12,8 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::{
-    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom, gr3, mike, selafin,
-    ugrid, ww3,
+    CellShape, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom, gr3, mike,
+    selafin, ugrid, ww3,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Extract, Limits, Mesh};
@@ -25,6 +25,7 @@ use crate::runs::seeds;
 
 mod gmsh;
 mod open_strings;
+mod squares;
 mod types;
 
 /// A mesh as a solver sees it. Numbers start at zero.
@@ -95,7 +96,15 @@ impl Case {
 
     fn data(&self) -> MeshData<'_> {
         let Self { boundary, quantities, targets, parts, provenance, .. } = self;
-        MeshData { target_diameter: targets, quantities, heights: None, boundary, parts, provenance }
+        MeshData {
+            target_diameter: targets,
+            quantities,
+            heights: None,
+            boundary,
+            parts,
+            cells: CellShape::Triangles,
+            provenance,
+        }
     }
 
     fn written(

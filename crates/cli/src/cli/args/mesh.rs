@@ -10,6 +10,7 @@ use super::input::InputArguments;
 use super::picture::PictureArguments;
 use super::space::SpaceArguments;
 use crate::cli::output_coordinates::OutputCoordinates;
+use meshbrush_io::io::CellShape;
 
 /// `meshbrush mesh`.
 #[derive(Debug, Args)]
@@ -30,6 +31,12 @@ pub struct MeshArguments {
     /// .vtu and .stl are always binary, and other formats are always text.
     #[arg(long, help_heading = "Output")]
     pub binary: bool,
+
+    /// Cells in .nc, .gr3, .ll, .2dm and .mesh: the triangles, or pairs of them joined to quadrilaterals
+    /// where a solver could have no link between them [default: squares in .nc, for Delft3D-FM, and triangles
+    /// elsewhere]
+    #[arg(long, value_name = "triangles|squares", help_heading = "Output")]
+    pub cells: Option<CellShape>,
 
     /// Write z = 0 in place of the height of a surface, in .vtu, .msh, .obj, .stl, .ply, .glb and .2dm
     ///

@@ -8,6 +8,7 @@ use clap::Args;
 use super::input::InputArguments;
 use super::mesh::{finite, positive};
 use crate::cli::output_coordinates::OutputCoordinates;
+use meshbrush_io::io::CellShape;
 use meshbrush_io::io::solver_rules::Solver;
 
 /// `meshbrush check`.
@@ -23,6 +24,10 @@ pub struct CheckArguments {
     /// Coordinates in the file, as for `meshbrush mesh`
     #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Rules")]
     pub out_crs: Option<OutputCoordinates>,
+
+    /// Cells in the file, as for `meshbrush mesh`
+    #[arg(long, value_name = "triangles|squares", help_heading = "Rules")]
+    pub cells: Option<CellShape>,
 
     /// A value at the nodes, as for `meshbrush mesh`: `depth=EXPR` is the depth, in place of that of layers
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Rules")]

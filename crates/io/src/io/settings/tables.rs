@@ -252,6 +252,9 @@ pub struct SavedOutput {
     /// Whether a format that is text otherwise is written in its binary form.
     #[serde(default, skip_serializing_if = "is_no")]
     pub binary: bool,
+    /// The cells of a format that can have quadrilaterals: `"triangles"` or `"squares"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cells: Option<String>,
     /// Further values at the nodes, as in `"depth = 20 - x"`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quantities: Vec<String>,

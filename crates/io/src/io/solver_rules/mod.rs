@@ -177,7 +177,7 @@ pub static RULES: [SolverRule; 15] = [
         source: "D-Flow FM flow_geominit.f90",
         severity: Severity::Violation,
         needs_strings: false,
-        remedy: "No water crosses such a link: join both triangles to a quadrilateral, as MeshKernel and RGFGRID do.",
+        remedy: "No water crosses such a link: write squares (without --cells triangles), or choose smaller triangles there.",
         find: flow_links::short,
     },
     SolverRule {

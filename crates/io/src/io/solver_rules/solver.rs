@@ -81,6 +81,11 @@ impl Solver {
         }
     }
 
+    /// Returns whether its files have quadrilaterals unless triangles are asked for.
+    pub(super) fn wants_squares(self) -> bool {
+        self == Self::Delft3dFm
+    }
+
     /// Returns whether open pieces that meet are one string in its files.
     pub(super) fn joins_open(self) -> bool {
         matches!(self, Self::Adcirc | Self::Swan)

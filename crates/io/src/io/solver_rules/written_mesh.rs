@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::Solver;
-use crate::io::MeshData;
 use crate::io::boundary_strings::{BoundaryString, BoundaryStrings, LAND, StringKind};
+use crate::io::{CellShape, MeshData};
+use meshbrush_core::cells::{CellNodes, MeshCells};
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -19,15 +20,6 @@ pub struct WrittenString {
     pub nodes: Vec<usize>,
 }
 
-/// An edge between two triangles.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct InnerEdge {
-    /// Its nodes.
-    pub ends: [usize; 2],
-    /// The triangles on both sides.
-    pub triangles: [usize; 2],
-}
-
 /// Nodes, triangles and strings, as a solver reads them. Nothing is taken for granted: triangles may be
 /// clockwise and nodes repeated.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +30,8 @@ pub struct WrittenMesh {
     pub triangles: Vec<[usize; 3]>,
     /// The unit of coordinates.
     pub unit: LengthUnit,
+    /// Whether pairs of triangles are quadrilaterals in the file.
+    pub joins_cells: bool,
     /// The depth at each node, positive downwards, if the file has depths.
     pub depths: Option<Vec<f64>>,
     /// The strings of the boundary, if the boundary can be divided.
@@ -47,7 +41,6 @@ pub struct WrittenMesh {
     /// Open strings of which no edge would be left where nodes are marked: a node, and the name.
     pub lost_open: Vec<(usize, String)>,
     boundary: Vec<[usize; 2]>,
-    inner: Vec<InnerEdge>,
     on_boundary: Vec<bool>,
 }
 
@@ -85,6 +78,11 @@ impl WrittenMesh {
         let mut mesh = Self::new(nodes, triangles, all);
         mesh.depths = data.depths().map(<[f64]>::to_vec);
         mesh.unit = data.provenance.unit();
+        mesh.joins_cells = match data.cells {
+            CellShape::OfFormat => solver.wants_squares(),
+            CellShape::Triangles => false,
+            CellShape::Squares => true,
+        };
         if let (Some(strings), Solver::Fvcom | Solver::Mike | Solver::Telemac) = (&strings, solver) {
             let codes = strings.marked_codes(extract);
             mesh.is_open = codes.iter().map(|&code| code > LAND).collect();
@@ -105,9 +103,10 @@ impl WrittenMesh {
         &self.boundary
     }
 
-    /// Returns the edges between two triangles.
-    pub(super) fn inner(&self) -> &[InnerEdge] {
-        &self.inner
+    /// Returns the cells of the file.
+    pub(super) fn cells(&self) -> MeshCells {
+        let mesh = CellNodes { nodes: &self.nodes, triangles: &self.triangles, unit: self.unit };
+        if self.joins_cells { MeshCells::joined(mesh) } else { MeshCells::triangles(mesh) }
     }
 
     /// Returns whether a node is on the boundary.
@@ -132,7 +131,7 @@ impl WrittenMesh {
         counts
     }
 
-    /// Divides the edges into those of one and of two triangles.
+    /// Finds the edges of one triangle.
     fn find_edges(&mut self) {
         let sides = (0..).zip(&self.triangles).flat_map(|(triangle, &[a, b, c])| {
             [[a, b], [b, c], [c, a]]
@@ -141,11 +140,8 @@ impl WrittenMesh {
         let mut sides: Vec<([usize; 2], usize, [usize; 2])> = sides.collect();
         sides.sort_unstable();
         for group in sides.chunk_by(|a, b| a.0 == b.0) {
-            match group {
-                [(ends, first, _), (_, second, _)] => {
-                    self.inner.push(InnerEdge { ends: *ends, triangles: [*first, *second] });
-                }
-                _ => self.boundary.extend(group.iter().map(|side| side.2)),
+            if group.len() != 2 {
+                self.boundary.extend(group.iter().map(|side| side.2));
             }
         }
         self.on_boundary = vec![false; self.nodes.len()];
