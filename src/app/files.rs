@@ -7,11 +7,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::host::asset;
-use super::mesh_export::MeshExport;
 use meshbrush_kit::kit::Keymap;
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, cancelled, exported, listed};
 use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
 use meshbrush_kit::kit::export_set::ExportSet;
+use meshbrush_kit::kit::mesh_export::MeshExport;
 use meshbrush_kit::kit::session::Session;
 
 use meshbrush_core::document::{
@@ -192,9 +192,10 @@ pub fn export(
     }
     let (mesh, file) = (MeshExport::of(session, view, format), path.to_owned());
     background.start(Aim::Export, path, move |meter| match mesh.write(&file, meter) {
-        Ok((files, triangles)) => {
-            let triangles = format::count(triangles as u64);
-            Outcome::Exported(format!("{triangles} triangles written to {}.", listed(&files)))
+        Ok((files, cells)) => {
+            let [squares, triangles] = cells.map(|count| format::count(count as u64));
+            let squares = if cells[0] > 0 { format!("{squares} squares and ") } else { String::new() };
+            Outcome::Exported(format!("{squares}{triangles} triangles written to {}.", listed(&files)))
         }
         Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
         Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),

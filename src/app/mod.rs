@@ -22,7 +22,6 @@ mod kept;
 mod kept_keys;
 mod keys;
 mod link;
-mod mesh_export;
 mod next_document;
 mod panels;
 mod parts;

@@ -117,7 +117,7 @@ fn links_of_squares_vanish_and_places_are_in_the_coordinates_of_the_file() {
     for (crs, coordinates, largest) in
         [("lonlat", "longitude, latitude in degrees", 8.0), ("plane", "x, y in ", 1e7)]
     {
-        let (_, answer) = check(&folder, &format!("{bay} --out-crs {crs}"), "delft3dfm");
+        let (_, answer) = check(&folder, &format!("{bay} --cells triangles --out-crs {crs}"), "delft3dfm");
         assert!(
             answer["coordinates"].as_str().unwrap().starts_with(coordinates),
             "{}",

@@ -586,7 +586,7 @@ fn the_memory_budget_of_a_project_counts_on_the_command_line() {
 
 /// A recipe without limits opens with limits that a person can read, and with the same mesh.
 #[test]
-fn an_opened_recipe_has_limits_and_its_notes_say_what_the_window_leaves_out() {
+fn an_opened_recipe_has_limits_and_the_files_that_it_asks_for() {
     let folder = Folder::new("opened");
     folder.file("a.asc", "ncols 2\nnrows 2\nxllcorner 1\nyllcorner 1\ncellsize 1\n0.1 0.2\n0.3 0.4\n");
     folder.file(
@@ -595,7 +595,7 @@ fn an_opened_recipe_has_limits_and_its_notes_say_what_the_window_leaves_out() {
          [[layer]]\nkind = \"raster\"\nfile = \"a.asc\"\nvisible = false\nas = \"diameter\"\n\
          [[output]]\nfile = \"a.vtu\"\n",
     );
-    let OpenedRecipe { mut document, notes, outputs: _ } =
+    let OpenedRecipe { mut document, notes, outputs } =
         open(&folder.0.join("strait.toml"), &Meter::default()).unwrap();
     let Settings { name, transfer, layers, domain, .. } = document.settings();
     assert!(name == "strait" && layers.len() == 2 && !layers[1].visible);
@@ -603,5 +603,6 @@ fn an_opened_recipe_has_limits_and_its_notes_say_what_the_window_leaves_out() {
     assert!(transfer.h_min > 1e-9 && transfer.h_max < 0.2, "{transfer:?}");
     assert_eq!(in_window(&mut document), by_command(&folder, &["strait.toml"]));
     assert_eq!(document.settings().max_level, Some(9));
-    assert!(notes.len() == 1 && notes[0].contains("no files of [[output]]"), "{notes:?}");
+    assert_eq!(notes, [String::new(); 0]);
+    assert!(outputs.len() == 1 && outputs[0].file == folder.0.join("a.vtu"), "{outputs:?}");
 }

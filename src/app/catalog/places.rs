@@ -36,6 +36,10 @@ pub static PLACES: &[DockPlace] = &[
         .words("quality bad elements aspect ratio skewness sliver slivers stretched longest shortest"),
     DockPlace::new("quality", "Quality", "Longest edge / h̄")
         .words("quality target size ratio too coarse honoured diameter"),
+    DockPlace::new("preflight", "Solver rules", "").words(
+        "check preflight ready adcirc schism swan telemac fvcom wavewatch delft3d mike modflow violations repair \
+         overconstrained open boundary",
+    ),
     DockPlace::new("plots", "Plots", "").words("chart figure time measure experiment"),
     DockPlace::new("domain", "Domain", "").words("extent outline coast region"),
     DockPlace::new("domain", "Domain", "Unit").words("metres kilometres degrees length"),

@@ -1,8 +1,8 @@
 //! What the files of an export will have in them, measured while the question for a file is open.
 
-use crate::app::mesh_export::{ExportFigures, MeshExport};
 use meshbrush_io::io::Meter;
 use meshbrush_kit::kit::jobs::{Jobs, Slot};
+use meshbrush_kit::kit::mesh_export::{ExportFigures, MeshExport};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::View;
 use meshbrush_render::render::export::ExportFormat;

@@ -26,6 +26,7 @@ pub mod heights;
 pub mod home;
 pub mod jobs;
 pub mod layer_edits;
+pub mod mesh_export;
 pub mod notices;
 pub mod picture_choices;
 pub mod platform;

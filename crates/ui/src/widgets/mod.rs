@@ -5,6 +5,7 @@
 //!
 //! Rows take the available width; they are designed for panels of [`super::theme::metrics::PANEL_WIDTH`].
 
+mod brush_tips;
 mod controls;
 mod display;
 mod floating;

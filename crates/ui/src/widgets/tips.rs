@@ -1,7 +1,7 @@
 //! Tooltips: one sentence for each control, beside the panel that it is in.
 
 use super::shown_keys::with_keys;
-use super::{domain_tips, layer_tips, picture_tips, space_tips};
+use super::{brush_tips, domain_tips, layer_tips, picture_tips, space_tips};
 use egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
 
 /// Points at an edge of the window within which a panel counts as being at that edge.
@@ -57,45 +57,12 @@ static SENTENCES: &[(&str, &str)] = &[
         "Overlay/Triangles at a node",
         "Shows the most triangles at a corner of each triangle: 10 and more are red, which some solvers refuse.",
     ),
+    ("Solver", "The solver whose rules the mesh is checked by, as its file would have it."),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),
     ("Colours/Cividis", "Navy to yellow; looks nearly the same with and without red-green blindness."),
     ("Colours/Turbo", "Blue over green to red, with many steps that can be told apart."),
     ("Colours/Greys", "Dark to light grey, for print."),
-    (
-        "What the brush paints/Risk",
-        "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
-    ),
-    ("What the brush paints/Diameter", "The brush paints the target diameter itself."),
-    ("What the brush paints/Error", "The brush paints the largest error from surfaces, in their unit."),
-    (
-        "How a stroke changes the paint/Build up",
-        "Each stroke raises the risk, or only refines where a diameter is painted[; {build-up}].",
-    ),
-    (
-        "How a stroke changes the paint/Set",
-        "A stroke paints one value, whatever was painted there[; {set-the-value}].",
-    ),
-    (
-        "How a stroke changes the paint/Lower",
-        "A stroke takes a share of the risk away, or makes painted diameters larger[; {lower}].",
-    ),
-    ("Mirrored x, y", "Strokes are repeated left and right, above and below; a click stops that."),
-    ("Mirrored x", "Strokes are repeated left and right of the middle of the domain; a click stops that."),
-    ("Mirrored y", "Strokes are repeated above and below the middle of the domain; a click stops that."),
-    (
-        "Preset",
-        "A brush under a name: radius, hardness, strength, what it paints, and how a pen changes it. More options keeps one.",
-    ),
-    (
-        "Keep the brush as a preset",
-        "Keeps radius, hardness, strength and what is painted under a name, from run to run.",
-    ),
-    ("Remove the preset", "Removes the preset from the list; the brush stays as it is."),
-    ("Mirror x", "Repeats strokes left and right of the middle of the domain."),
-    ("Mirror y", "Repeats strokes above and below the middle of the domain."),
-    ("Pen: radius", "The pressure of the pen changes the radius of the brush."),
-    ("Pen: strength", "The pressure of the pen changes the strength of the brush."),
     (
         "Lower the smallest diameter",
         "Lowers h_min to the painted diameter, in the unit of the document; the risk curve stays.",
@@ -403,6 +370,7 @@ pub fn sentence(name: &str) -> &'static str {
         .iter()
         .chain(domain_tips::SENTENCES)
         .chain(layer_tips::SENTENCES)
+        .chain(brush_tips::SENTENCES)
         .chain(picture_tips::SENTENCES)
         .chain(space_tips::SENTENCES);
     all.into_iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
@@ -471,6 +439,7 @@ mod tests {
             .iter()
             .chain(domain_tips::SENTENCES)
             .chain(layer_tips::SENTENCES)
+            .chain(brush_tips::SENTENCES)
             .chain(picture_tips::SENTENCES)
             .chain(space_tips::SENTENCES)
             .collect();

@@ -1,9 +1,9 @@
 //! What a person may miss in the files of an export, in sentences.
 
-use crate::app::mesh_export::{DepthFigures, ExportFigures};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::ThirdCoordinate;
+use meshbrush_kit::kit::mesh_export::{DepthFigures, ExportFigures};
 use meshbrush_render::render::export::ExportFormat;
 use meshbrush_ui::widgets::format;
 
@@ -24,7 +24,9 @@ pub fn sentences(
         }
         None => [None, None, None],
     };
-    of_format.into_iter().chain(of_mesh).flatten()
+    let of_rules =
+        figures.and_then(|figures| figures.as_ref().ok()?.broken_rules.clone()).unwrap_or_default();
+    of_format.into_iter().chain(of_mesh).flatten().chain(of_rules)
 }
 
 fn lost_in_pictures(format: ExportFormat) -> Option<String> {
@@ -81,7 +83,15 @@ mod tests {
     #[test]
     fn a_solver_is_told_to_get_filled_depths_and_a_closed_basin() {
         let depths = Some(DepthFigures { filled: 191, farthest: 0.25 });
-        let figures = ExportFigures { bytes: None, triangles: 2, nodes: 1234, depths, has_open_edge: false };
+        let figures = ExportFigures {
+            bytes: None,
+            triangles: 2,
+            nodes: 1234,
+            squares: 0,
+            depths,
+            broken_rules: None,
+            has_open_edge: false,
+        };
         let settings = Settings::default();
         let text = said("14", &settings, &Ok(figures.clone()));
         assert!(text.contains("191 of 1,234 nodes are where no layer has a depth"), "{text}");

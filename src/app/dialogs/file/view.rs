@@ -11,12 +11,12 @@ use eframe::egui::{
 use super::{Contents, FileDialog, export_doubts};
 
 use crate::app::dialogs::pictures;
-use crate::app::mesh_export::ExportFigures;
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
 use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_kit::kit::background::{ProgressRow, WorkId};
 use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::mesh_export::ExportFigures;
 use meshbrush_kit::kit::picture_choices::PictureChoices;
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::ExportFormat;
@@ -329,9 +329,9 @@ fn written(format: ExportFormat, facts: &FileFacts<'_>, path: &Path) -> String {
         1 => String::new(),
         files => format!(" in {files} files"),
     };
-    if let Some(&Ok(ExportFigures { bytes: Some(bytes), triangles, nodes, .. })) = facts.figures {
-        let [triangles, nodes] = [triangles, nodes].map(|count| format::count(count as u64));
-        return format!("{triangles} triangles, {nodes} nodes, {}{files}.", format::file_size(bytes));
+    if let Some(Ok(figures @ ExportFigures { bytes: Some(bytes), .. })) = facts.figures {
+        let ready = if figures.is_ready() { " It keeps all rules of its solver." } else { "" };
+        return format!("{}, {}{files}.{ready}", cells_and_nodes(figures), format::file_size(*bytes));
     }
     // No more digits than the estimate is worth.
     let about = |bytes: u64| format::rounded(bytes as f64, 2) as u64;
@@ -341,6 +341,17 @@ fn written(format: ExportFormat, facts: &FileFacts<'_>, path: &Path) -> String {
             let width = format::count(facts.picture.size().width.into());
             format!("{count} triangles as a picture, {width} pixels wide.")
         }
+    }
+}
+
+/// Returns the number of cells and of nodes: `20,869 squares, 9,760 triangles, 26,000 nodes`.
+fn cells_and_nodes(figures: &ExportFigures) -> String {
+    let ExportFigures { triangles, squares, nodes, .. } = *figures;
+    let [squares_text, triangles_text, nodes] =
+        [squares, triangles - 2 * squares, nodes].map(|count| format::count(count as u64));
+    match squares {
+        0 => format!("{triangles_text} triangles, {nodes} nodes"),
+        _ => format!("{squares_text} squares, {triangles_text} triangles, {nodes} nodes"),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Commands about the figures of the mesh.
 
+use meshbrush_io::io::solver_rules::Solver;
 use meshbrush_kit::kit::command::CommandSet;
 
 /// One thing to do with the figures of the mesh.
@@ -9,6 +10,10 @@ pub enum StatisticsCommand {
     Measure,
     /// Shows time steps for this Courant number.
     SetCourant(f64),
+    /// Checks the mesh by the rules of another solver.
+    ChooseSolver(Solver),
+    /// Checks the mesh by the rules of the solver.
+    CheckRules,
 }
 
 impl CommandSet for StatisticsCommand {}

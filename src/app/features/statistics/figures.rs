@@ -1,7 +1,8 @@
 //! The figures of the mesh, which are computed on another thread: a large mesh takes longer than a frame.
 
 use super::{
-    Measured, Measuring, Statistics, StatisticsCommand, levels::LEVELS, panel::STATISTICS, quality::QUALITY,
+    Measured, Measuring, Statistics, StatisticsCommand, levels::LEVELS, panel::STATISTICS,
+    preflight::PREFLIGHT, preflight::Preflight, quality::QUALITY,
 };
 use meshbrush_core::quality::QualityMeasure;
 use meshbrush_kit::kit::derivation::MeasuredMesh;
@@ -14,18 +15,20 @@ pub const COURANT: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 impl Default for Statistics {
     fn default() -> Self {
-        Self { figures: Slot::default(), courant: 1.0 }
+        Self { figures: Slot::default(), courant: 1.0, preflight: Preflight::default() }
     }
 }
 
 impl Feature for Statistics {
     type Command = StatisticsCommand;
-    const ROW: Row = Row { panels: &[&LEVELS, &STATISTICS, &QUALITY], ..Row::EMPTY };
+    const ROW: Row = Row { panels: &[&LEVELS, &STATISTICS, &QUALITY, &PREFLIGHT], ..Row::EMPTY };
 
     fn execute(&mut self, command: StatisticsCommand, ctx: &mut Ctx<'_>) {
         match command {
             StatisticsCommand::Measure => self.measure(ctx.session, ctx.jobs),
             StatisticsCommand::SetCourant(number) => self.set_courant(number),
+            StatisticsCommand::ChooseSolver(solver) => self.preflight.solver = solver,
+            StatisticsCommand::CheckRules => self.preflight.check(ctx.session, ctx.view, ctx.jobs),
         }
     }
 
@@ -34,11 +37,12 @@ impl Feature for Statistics {
         if MeasuredMesh::is_settled(ctx.session.document(), follower, derivation) {
             self.figures.want(&MeasuredMesh::now(follower, derivation), ctx.jobs);
         }
-        self.figures.take(ctx.jobs)
+        let checks = self.preflight.follow(ctx.session, ctx.jobs);
+        self.figures.take(ctx.jobs) || checks
     }
 
     fn for_next_document(self) -> Self {
-        Self { courant: self.courant, ..Self::default() }
+        Self { courant: self.courant, preflight: self.preflight.for_next_document(), ..Self::default() }
     }
 }
 

@@ -5,6 +5,7 @@ mod figures;
 mod levels;
 mod measuring;
 mod panel;
+mod preflight;
 mod quality;
 #[cfg(test)]
 mod tests;
@@ -12,6 +13,7 @@ mod tests;
 pub use command::StatisticsCommand;
 pub use measuring::NoTimeStep;
 use measuring::{Measured, Measuring};
+use preflight::Preflight;
 
 use meshbrush_kit::kit::derivation::MeasuredMesh;
 use meshbrush_kit::kit::jobs::Slot;
@@ -21,4 +23,6 @@ pub struct Statistics {
     figures: Slot<MeasuredMesh, Measured>,
     /// The Courant number that time steps are shown for.
     courant: f64,
+    /// The rules of a solver.
+    preflight: Preflight,
 }

@@ -15,6 +15,7 @@ mod tests;
 mod written_mesh;
 
 use glam::DVec2;
+use meshbrush_mesh::text::Grouped;
 
 pub use solver::{Solver, UnknownSolver};
 pub use written_mesh::{WrittenMesh, WrittenString};
@@ -207,6 +208,25 @@ pub struct BrokenRule {
     pub rule: &'static SolverRule,
     /// The places, one at least.
     pub found: Vec<BrokenPlace>,
+}
+
+impl BrokenRule {
+    /// Returns a sentence: how many places break the rule, where it comes from, and what helps.
+    pub fn in_words(&self, solver: Solver) -> String {
+        let SolverRule { source, remedy, .. } = self.rule;
+        let places = match self.found.len() {
+            1 => "1 place breaks".to_owned(),
+            places => format!("{} places break", Grouped(places)),
+        };
+        format!("{places} the rule “{}” of {} ({source}). {remedy}", self.rule.title(), solver.name())
+    }
+}
+
+impl SolverRule {
+    /// Returns its name in sentences.
+    pub fn title(&self) -> String {
+        self.name.replace('_', " ")
+    }
 }
 
 /// Returns the rules of a solver.

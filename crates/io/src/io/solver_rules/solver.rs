@@ -43,6 +43,21 @@ impl Solver {
         Self::Modflow,
     ];
 
+    /// Returns the solver that reads a format of this name; `None` for a format of many programs.
+    pub fn of_format(name: &str) -> Option<Self> {
+        match name {
+            "fort14" => Some(Self::Adcirc),
+            "gr3" | "ll" => Some(Self::Schism),
+            "slf" => Some(Self::Telemac),
+            "fvcom" => Some(Self::Fvcom),
+            "ww3" => Some(Self::Ww3),
+            "ugrid" => Some(Self::Delft3dFm),
+            "mesh" => Some(Self::Mike),
+            "disv" => Some(Self::Modflow),
+            _ => None,
+        }
+    }
+
     /// Returns the word for it on the command line and in JSON.
     pub fn word(self) -> &'static str {
         match self {

@@ -2,4 +2,5 @@
 
 mod figures;
 mod levels;
+mod preflight;
 mod quality;

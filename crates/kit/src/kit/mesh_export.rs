@@ -4,17 +4,19 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::session::Session;
+use super::view::{Space, View};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{DomainOnLattice, MeshBoundary};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{NodeDepths, PaintLayers, SizeField};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
+use meshbrush_io::io::solver_rules::{BrokenRule, Severity, Solver, WrittenMesh, broken_rules};
 use meshbrush_io::io::{
     CellShape, DEPTH, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
+    joined_cells,
 };
-use meshbrush_kit::kit::session::Session;
-use meshbrush_kit::kit::view::{Space, View};
 use meshbrush_mesh::mesh::{Extract, Fingerprint, Mesh, MeshView};
 use meshbrush_render::render::export::ExportFormat;
 use meshbrush_render::render::look::Look;
@@ -44,8 +46,13 @@ pub struct ExportFigures {
     pub triangles: usize,
     /// Nodes.
     pub nodes: usize,
+    /// Quadrilaterals, of two triangles each.
+    pub squares: usize,
     /// How the nodes get their depths; `None` without a layer of depths.
     pub depths: Option<DepthFigures>,
+    /// The rules of the solver of the format that the files break, in a sentence each; `None` for a format of
+    /// no solver.
+    pub broken_rules: Option<Vec<String>>,
     /// Whether an edge of the boundary is open.
     pub has_open_edge: bool,
 }
@@ -57,6 +64,13 @@ pub struct DepthFigures {
     pub filled: usize,
     /// The distance of the farthest of these pixels, in world units.
     pub farthest: f64,
+}
+
+impl ExportFigures {
+    /// Returns whether the format has a solver, and the files keep all its rules.
+    pub fn is_ready(&self) -> bool {
+        self.broken_rules.as_ref().is_some_and(Vec::is_empty)
+    }
 }
 
 impl MeshExport {
@@ -77,19 +91,20 @@ impl MeshExport {
         }
     }
 
-    /// Writes the files, and returns their names and the number of triangles.
+    /// Writes the files, and returns their names and the cells in them: squares, and triangles.
     ///
     /// # Errors
     /// Fails when a file cannot be written, nodes have no depth, the format cannot hold the mesh, or the work
     /// was cancelled. Existing files are then unchanged.
-    pub fn write(&self, file: &Path, meter: &Meter) -> io::Result<(Vec<PathBuf>, usize)> {
+    pub fn write(&self, file: &Path, meter: &Meter) -> io::Result<(Vec<PathBuf>, [usize; 2])> {
         let extract = self.extract();
         let (values, _) = self.values_at_nodes(extract.view())?;
         self.with_data(&extract, &values, meter, |placed, data| {
             let in_space = |space| self.look_in_space(&space, &extract);
             let look = Look { space: self.space.and_then(in_space), ..self.look.clone() };
             let files = self.format.write(file, &self.mesh, placed, data, &look, meter)?;
-            Ok((files, extract.triangles().len()))
+            let squares = self.squares(placed, data);
+            Ok((files, [squares, extract.triangles().len() - 2 * squares]))
         })
     }
 
@@ -107,14 +122,46 @@ impl MeshExport {
                 ExportFormat::Mesh(format) => Some(format.exact_bytes(placed, data, meter)?),
                 _ => None,
             };
+            let squares = self.squares(placed, data);
+            let solver = Solver::of_format(self.format.name());
+            let broken_rules = solver.map(|solver| {
+                let broken = broken_rules(&WrittenMesh::of(placed, data, solver), solver);
+                let violations = broken.iter().filter(|broken| broken.rule.severity == Severity::Violation);
+                violations.map(|broken| broken.in_words(solver)).collect()
+            });
             Ok(ExportFigures {
                 bytes,
+                squares,
+                broken_rules,
                 triangles: extract.triangles().len(),
                 nodes: extract.nodes().len(),
                 depths,
                 has_open_edge: data.boundary.present().any(is_open),
             })
         })
+    }
+
+    /// Returns the rules of a solver that the mesh breaks in the coordinates of a file, with the places in
+    /// world units.
+    ///
+    /// # Errors
+    /// Fails when nodes have no depth, and when the work was cancelled.
+    pub fn broken_rules(&self, solver: Solver, meter: &Meter) -> io::Result<Vec<BrokenRule>> {
+        let extract = self.extract();
+        let (values, _) = self.values_at_nodes(extract.view())?;
+        let mut broken = self.with_data(&extract, &values, meter, |placed, data| {
+            Ok(broken_rules(&WrittenMesh::of(placed, data, solver), solver))
+        })?;
+        if let Some(projection) = self.settings.domain.projection {
+            let places = broken.iter_mut().flat_map(|broken| &mut broken.found);
+            places.for_each(|found| found.place = projection.plane_from_geographic(found.place));
+        }
+        Ok(broken)
+    }
+
+    /// Returns how many quadrilaterals the files have.
+    fn squares(&self, placed: &Extract, data: &MeshData) -> usize {
+        if self.format.wants_squares() { joined_cells(placed, data).0.joined_count() } else { 0 }
     }
 
     fn extract(&self) -> Extract<'static> {
