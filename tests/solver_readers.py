@@ -150,12 +150,34 @@ def check_ugrid(path, expected, pieces):
     assert counts.sum() - counts[0] == sum(piece["edges"] for piece in pieces), "edges of the boundary"
 
 
+def check_squares(program, folder, expected):
+    """Checks the cells that `.nc` has by default: they cover the mesh, and two triangles make a quadrilateral."""
+    subprocess.run([program, "mesh", "sea.toml", "-o", "squares.nc"], check=True, stderr=subprocess.DEVNULL, cwd=folder)
+    with netCDF4.Dataset(folder / "squares.nc") as file:
+        topology = next(variable for variable in file.variables.values() if getattr(variable, "cf_role", "") == "mesh_topology")
+        x, y = (np.asarray(file[name][:]) for name in topology.node_coordinates.split())
+        corners = file[topology.face_node_connectivity]
+        cells = [row.compressed() - corners.start_index for row in np.ma.masked_array(corners[:])]
+        edges = file[topology.edge_node_connectivity][:] - 1
+
+    def area(cell):
+        return 0.5 * np.sum(x[cell] * np.roll(y[cell], -1) - np.roll(x[cell], -1) * y[cell])
+
+    triangles = expected.cells_dict["triangle"]
+    squares = sum(len(cell) == 4 for cell in cells)
+    assert squares > 10 and len(cells) + squares == len(triangles), "a quadrilateral is two triangles"
+    assert all(area(cell) > 0 for cell in cells), "anticlockwise"
+    assert np.isclose(sum(map(area, cells)), sum(map(area, triangles)), rtol=1e-12), "the cells cover the mesh"
+    sides = {frozenset(side) for cell in cells for side in zip(cell.tolist(), np.roll(cell, -1).tolist(), strict=True)}
+    assert sides == {frozenset(edge) for edge in edges.tolist()} and len(sides) == len(edges), "each edge once"
+
+
 def write_sea(program, folder, endings):
     """Writes a small sea with every type of boundary; returns the mesh that the files have, and the pieces of its boundary."""
     (folder / "sea.geojson").write_text(json.dumps(SEA))
     (folder / "sea.toml").write_text(RECIPE)
     outputs = [word for ending in ["vtu", *endings] for word in ("-o", f"sea.{ending}")]
-    command = [program, "mesh", "sea.toml", "--json", "--quantity", "depth=20 + x/3 - y", *outputs]
+    command = [program, "mesh", "sea.toml", "--json", "--cells", "triangles", "--quantity", "depth=20 + x/3 - y", *outputs]
     ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder)
     pieces = json.loads(ran.stdout)["boundary"]
     assert {piece["type"] for piece in pieces} == {"open", "land", "no-slip land", "natural land", "inflow", "natural inflow"}
@@ -173,6 +195,7 @@ def main():
         check_pyschism(folder / "sea.gr3", expected, pieces, schism_number)
         check_selafin(folder / "sea.slf", expected, pieces)
         check_ugrid(folder / "sea.nc", expected, pieces)
+        check_squares(str(pathlib.Path(sys.argv[1]).resolve()), folder, expected)
     print(f"a sea with {len(pieces)} typed pieces: .14, .gr3, .slf with .cli, .nc: read back")
 
 
