@@ -70,14 +70,19 @@ impl<W: Write> Writer<'_, W> {
         self.write_entities(mesh, data, &curves)?;
         self.write_nodes(mesh, data)?;
         self.write_elements(mesh, &curves)?;
-        self.write_views(mesh, data, &curves)
+        self.write_node_views(data)?;
+        self.write_element_views(mesh, data, &curves)
     }
 
-    /// Values of nodes and of elements, the triangles before the edges of curves.
-    fn write_views(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
-        for (name, values) in data.node_values() {
-            self.write_values("NodeData", name, values.len(), |node| values[node])?;
-        }
+    /// Values of nodes.
+    fn write_node_views(&mut self, data: &MeshData) -> io::Result<()> {
+        data.node_values().try_for_each(|(name, values)| {
+            self.write_values("NodeData", name, values.len(), |node| values[node])
+        })
+    }
+
+    /// Values of elements, the triangles before the edges of curves.
+    fn write_element_views(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
         // meshio requires element data for all elements or none, so a boundary edge gets the data of its
         // triangle.
         let lines: Vec<usize> =
@@ -200,14 +205,9 @@ pub(super) fn write_names(out: &mut impl Write, data: &MeshData, curves: &[Curve
     writeln!(out, "2 {SURFACE} \"domain\"\n$EndPhysicalNames")
 }
 
-/// Writes values of nodes and of elements as text: their sections are the same in Gmsh 2.2.
-pub(super) fn write_text_views(
-    out: &mut impl Write,
-    mesh: &Extract,
-    data: &MeshData,
-    curves: &[Curve],
-) -> io::Result<()> {
-    Writer { out, is_binary: false }.write_views(mesh, data, curves)
+/// Writes values of nodes as text: their sections are the same in Gmsh 2.2.
+pub(super) fn write_text_views(out: &mut impl Write, data: &MeshData) -> io::Result<()> {
+    Writer { out, is_binary: false }.write_node_views(data)
 }
 
 /// A line of text, or the bytes of the numbers.

@@ -2,10 +2,11 @@
 //! others that do not read Gmsh 4.1.
 //!
 //! Names, numbers and values are those of `.msh`: the triangles are the physical surface `domain` (1), each
-//! piece of the boundary is a physical curve with its name and marker, h̄, the quantities, `level` and `part`
-//! are views, z is the height of the surface or 0. An element has two tags, its group and its entity, which
-//! have one number. Some readers take the sections by their order, so comments on the origin of the mesh come
-//! last.
+//! piece of the boundary is a physical curve with its name and marker, h̄ and the quantities are views, z is
+//! the height of the surface or 0. `level` and `part` are left out: meshio 5.3 fails on files of Gmsh 2.2
+//! with element data beside more than one kind of element. An element has two tags, its group and its entity,
+//! which have one number. Some readers take the sections by their order, so comments on the origin of the
+//! mesh come last.
 
 use std::io::{self, Write};
 
@@ -39,7 +40,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     })?;
     writeln!(out, "$EndNodes")?;
     write_elements(out, mesh, &curves)?;
-    write_text_views(out, mesh, data, &curves)?;
+    write_text_views(out, data)?;
     writeln!(out, "$Comments")?;
     data.provenance.lines().try_for_each(|line| writeln!(out, "{line}"))?;
     writeln!(out, "$EndComments")
