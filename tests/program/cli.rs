@@ -652,7 +652,7 @@ fn wrong_arguments_are_explained() {
         (
             "mesh -o mesh.xyz",
             2,
-            "use one of .vtu .msh .msh2 .obj .stl .ply .glb .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .ww3 .dat .svg .png",
+            "use one of .vtu .msh .msh2 .obj .stl .ply .glb .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .ww3 .dat .disv .svg .png",
         ),
         ("mesh -o mesh", 2, "-o mesh: the ending chooses the format; use one of .vtu"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),

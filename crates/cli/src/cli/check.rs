@@ -18,7 +18,7 @@ use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
 };
-use meshbrush_io::io::{DEPTH, MeshData, NodeValues};
+use meshbrush_io::io::{DEPTH, MeshData, NodeValues, SURFACE};
 use meshbrush_mesh::text::{Grouped, Number};
 
 /// How many places of a rule are printed one by one; JSON has all.
@@ -53,6 +53,10 @@ pub fn run(
     if !values.iter().any(|values| values.name == DEPTH) {
         values.extend(of_layers.map(|values| NodeValues { name: DEPTH.into(), values }));
     }
+    if !values.iter().any(|values| values.name == SURFACE) {
+        let heights = details.heights.clone();
+        values.extend(heights.map(|values| NodeValues { name: SURFACE.into(), values }));
+    }
     let provenance = &details.provenance;
     let exported = ExportedMesh {
         finished: &finished,
@@ -64,7 +68,7 @@ pub fn run(
     };
     let placed = exported.in_coordinates()?;
     let cells = typed.cells.unwrap_or_default();
-    let data = MeshData { cells, ..exported.data(&values, true) };
+    let data = MeshData { cells, ..exported.data(&values, false) };
     let written = WrittenMesh::of(placed.as_ref().unwrap_or(&extract), &data, typed.solver);
     let broken = terminal.while_working("checking the rules", || broken_rules(&written, typed.solver));
     let meaning = provenance.entries().find_map(|(key, text)| (key == "coordinates").then_some(text));

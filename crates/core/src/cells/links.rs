@@ -48,7 +48,7 @@ pub struct CellLink {
 
 impl CellLink {
     /// Returns its length as a share of the size of the cells.
-    pub(super) fn share(&self) -> f64 {
+    pub fn share(&self) -> f64 {
         self.length / self.size
     }
 
@@ -133,6 +133,22 @@ pub(super) fn links_of(mesh: CellNodes<'_>, cells: &[MeshCell], edges: &[InnerEd
     let is_inner = |edge| is_among(edges, edge);
     let link = |edge: &InnerEdge| link(mesh, edge.ends, edge.cells.map(|cell| &cells[cell]), is_inner);
     edges.par_iter().map(link).collect()
+}
+
+/// Returns the centre of each cell, in the coordinates of the nodes.
+pub(super) fn centers_of(mesh: CellNodes<'_>, cells: &[MeshCell]) -> Vec<DVec2> {
+    let edges = edges_of(cells);
+    let center_of = |cell: &MeshCell| {
+        let corners = cell.corners();
+        // Relative to a corner: places far from the origin keep their digits.
+        let origin = mesh.nodes[corners[0]];
+        let latitudes = corners.iter().map(|&node| mesh.nodes[node].y).sum::<f64>();
+        let scale = scale(mesh.unit, latitudes / corners.len() as f64);
+        let placed: Vec<DVec2> = corners.iter().map(|&node| scale * (mesh.nodes[node] - origin)).collect();
+        let inner: Vec<bool> = cell.edges().map(|edge| is_among(&edges, edge)).collect();
+        origin + center(&placed, &inner) / scale
+    };
+    cells.par_iter().map(center_of).collect()
 }
 
 /// Returns whether an edge is one between two cells.

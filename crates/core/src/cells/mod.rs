@@ -20,6 +20,7 @@ mod join;
 mod links;
 #[cfg(test)]
 mod tests;
+mod values;
 
 use glam::DVec2;
 
@@ -99,6 +100,25 @@ impl MeshCells {
     /// Returns how many cells were joined from two triangles.
     pub fn joined_count(&self) -> usize {
         self.cells.iter().filter(|cell| cell.is_joined()).count()
+    }
+
+    /// Returns the centre of each cell, in the coordinates of the nodes: the circumcentre of a triangle, and
+    /// of a quadrilateral the place nearest to the perpendicular bisectors of its inner edges; both within
+    /// the cell. A link joins two centres.
+    pub fn centers(&self, mesh: CellNodes<'_>) -> Vec<DVec2> {
+        links::centers_of(mesh, &self.cells)
+    }
+
+    /// Returns the value at the centre of each cell, [`Self::centers`], of what is `value` at the nodes and
+    /// linear on each triangle.
+    pub fn at_centers(
+        &self,
+        mesh: CellNodes<'_>,
+        centers: &[DVec2],
+        value: impl Fn(usize) -> f64,
+    ) -> Vec<f64> {
+        let cells = self.cells.iter().zip(centers);
+        cells.map(|(cell, &center)| values::interpolate(mesh, cell, center, &value)).collect()
     }
 
     /// Returns the links between the cells, in ascending order of the nodes of their edges.

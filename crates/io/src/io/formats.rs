@@ -2,12 +2,12 @@
 
 use super::format_spec::{FormatSpec, RasterFormatSpec, ShapeFormatSpec};
 use super::{
-    asc, csv, fort14, fvcom, geojson, geotiff, glb, gpkg, gr3, mike, msh, msh22, netcdf, node, npy, obj, ply,
-    png, selafin, shp, sms, stl, ugrid, vtu, ww3,
+    asc, csv, disv, fort14, fvcom, geojson, geotiff, glb, gpkg, gr3, mike, msh, msh22, netcdf, node, npy,
+    obj, ply, png, selafin, shp, sms, stl, ugrid, vtu, ww3,
 };
 
 /// The formats of meshes.
-pub static MESH_FORMATS: [&FormatSpec; 18] = [
+pub static MESH_FORMATS: [&FormatSpec; 19] = [
     &vtu::FORMAT,
     &msh::FORMAT,
     &msh22::FORMAT,
@@ -26,6 +26,7 @@ pub static MESH_FORMATS: [&FormatSpec; 18] = [
     &mike::FORMAT,
     &ww3::FORMAT,
     &fvcom::FORMAT,
+    &disv::FORMAT,
 ];
 
 /// The formats of rasters.

@@ -12,7 +12,7 @@
 //! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj`, `.2dm` and the formats of
 //!   coastal solvers, which start at one.
 //!
-//! The formats of coastal solvers (`fort14`, `gr3`, `selafin`, `mike`, `ww3`, `fvcom`, `ugrid`) have a depth
+//! The formats of solvers (`fort14`, `gr3`, `selafin`, `mike`, `ww3`, `fvcom`, `ugrid`, `disv`) have a depth
 //! at each node, [`MeshData::depths`], and most of them the boundary as strings of nodes
 //! (`boundary_strings`).
 //!
@@ -29,6 +29,7 @@ mod coordinate_system;
 mod coordinates;
 pub mod csv;
 pub mod disk;
+pub mod disv;
 mod error;
 mod fault;
 mod features;

@@ -1,6 +1,7 @@
 //! The cells of a mesh as a file has them: triangles, or quadrilaterals joined from two where that is asked
 //! for.
 
+use std::borrow::Cow;
 use std::str::FromStr;
 
 use super::MeshData;
@@ -9,11 +10,13 @@ use glam::DVec2;
 
 use meshbrush_core::cells::{CellNodes, LinkFigures, MeshCell, MeshCells};
 use meshbrush_mesh::mesh::{Extract, TriangleId};
+use meshbrush_mesh::text::LengthUnit;
 
 /// The cells of a file whose format can have quadrilaterals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CellShape {
-    /// What the solver of the format wants: squares for Delft3D-FM (`.nc`), triangles for all others.
+    /// What the solver of the format wants: squares for Delft3D-FM (`.nc`) and MODFLOW (`.disv`), triangles
+    /// for all others.
     #[default]
     OfFormat,
     /// The triangles of the mesh.
@@ -97,6 +100,24 @@ impl<'a> WrittenCells<'a> {
                 ([corners[0], corners[1], corners[2]], corners.get(3).copied())
             }
         }
+    }
+
+    /// Returns the centre of each cell, [`MeshCells::centers`], and the values there of each of `fields`,
+    /// which are given by node: [`MeshCells::at_centers`].
+    pub(super) fn centers<const N: usize>(
+        &self,
+        unit: LengthUnit,
+        fields: [&dyn Fn(usize) -> f64; N],
+    ) -> (Vec<DVec2>, [Vec<f64>; N]) {
+        let (nodes, triangles) = arrays(self.mesh);
+        let nodes = CellNodes { nodes: &nodes, triangles: &triangles, unit };
+        let cells = match &self.joined {
+            Some(cells) => Cow::Borrowed(cells),
+            None => Cow::Owned(MeshCells::triangles(nodes)),
+        };
+        let centers = cells.centers(nodes);
+        let values = fields.map(|field| cells.at_centers(nodes, &centers, field));
+        (centers, values)
     }
 
     /// Returns the triangles of a cell; the same one twice where it is one.

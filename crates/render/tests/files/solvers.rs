@@ -23,6 +23,7 @@ use crate::formula_mesh::formula_mesh;
 use crate::netcdf_reader::{Attribute, NetCdf};
 use crate::runs::seeds;
 
+mod disv;
 mod gmsh;
 mod open_strings;
 mod squares;
@@ -799,6 +800,7 @@ fn solver_formats_are_chosen_by_endings_and_names() {
         ("ww3", "ww3"),
         ("msh", "msh"),
         ("dat", "fvcom"),
+        ("disv", "disv"),
     ] {
         assert_eq!(by_ending(ending), Some(name), "{ending}");
     }

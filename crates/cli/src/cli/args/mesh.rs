@@ -32,13 +32,14 @@ pub struct MeshArguments {
     #[arg(long, help_heading = "Output")]
     pub binary: bool,
 
-    /// Cells in .nc, .gr3, .ll, .2dm and .mesh: the triangles, or pairs of them joined to quadrilaterals
-    /// where a solver could have no link between them [default: squares in .nc, for Delft3D-FM, and triangles
-    /// elsewhere]
+    /// Cells in .nc, .disv, .gr3, .ll, .2dm and .mesh: the triangles, or pairs of them joined to
+    /// quadrilaterals where a solver could have no link between them [default: squares in .nc, for
+    /// Delft3D-FM, and .disv, for MODFLOW, and triangles elsewhere]
     #[arg(long, value_name = "triangles|squares", help_heading = "Output")]
     pub cells: Option<CellShape>,
 
-    /// Write z = 0 in place of the height of a surface, in .vtu, .msh, .obj, .stl, .ply, .glb and .2dm
+    /// Write z = 0 in place of the height of a surface, in .vtu, .msh, .obj, .stl, .ply, .glb and .2dm,
+    /// and for the top in .disv
     ///
     /// The heights stay as values at the nodes where the format has any.
     #[arg(long, help_heading = "Output")]

@@ -20,7 +20,7 @@ use meshbrush_mesh::text::Grouped;
 pub use solver::{Solver, UnknownSolver};
 pub use written_mesh::{WrittenMesh, WrittenString};
 
-use Solver::{Adcirc, Delft3dFm, Fvcom, Mike, Schism, Swan, Telemac};
+use Solver::{Adcirc, Delft3dFm, Fvcom, Mike, Modflow, Schism, Swan, Telemac};
 
 /// A place at which a mesh breaks a rule.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +60,7 @@ pub struct SolverRule {
 }
 
 /// The rules, those of all solvers first.
-pub static RULES: [SolverRule; 15] = [
+pub static RULES: [SolverRule; 18] = [
     SolverRule {
         name: "clockwise_triangle",
         solvers: &Solver::ALL,
@@ -189,6 +189,33 @@ pub static RULES: [SolverRule; 15] = [
         needs_strings: false,
         remedy: "Choose smaller triangles there, or orthogonalize the mesh there in RGFGRID.",
         find: flow_links::skewed,
+    },
+    SolverRule {
+        name: "connection_of_no_length",
+        solvers: &[Modflow],
+        source: "MODFLOW 6 DisvGeom.f90: conductance is divided by the distances of both centres from the edge",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Write squares (without --cells triangles), or choose smaller triangles there.",
+        find: flow_links::without_length,
+    },
+    SolverRule {
+        name: "oblique_connection",
+        solvers: &[Modflow],
+        source: "MODFLOW 6, control volumes: a connection crosses its edge at a right angle",
+        severity: Severity::Note,
+        needs_strings: false,
+        remedy: "Choose smaller triangles there, or have MODFLOW correct the flow (XT3D).",
+        find: flow_links::oblique,
+    },
+    SolverRule {
+        name: "cell_without_thickness",
+        solvers: &[Modflow],
+        source: "MODFLOW 6 DISV: the bottom of a cell is below its top, which is 0",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Write a least depth (--least-depth 1), or the surface as the top (--surface).",
+        find: nodes::cells_without_thickness,
     },
     SolverRule {
         name: "dry_node",

@@ -1,6 +1,7 @@
 //! Rules on nodes and the triangles at them.
 
 use super::{BrokenPlace, WrittenMesh};
+use meshbrush_core::cells::CellNodes;
 use meshbrush_mesh::text::{Number, digits};
 
 /// The cells that may meet in an inner node, for SWAN.
@@ -76,4 +77,21 @@ pub(super) fn dry_nodes(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
         }
     };
     dry.map(found).collect()
+}
+
+/// Finds cells whose bottom, minus the depth at their centre, is not below the height of the surface there or
+/// 0, if there are depths.
+pub(super) fn cells_without_thickness(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
+    let Some(depths) = &mesh.depths else { return Vec::new() };
+    let nodes = CellNodes { nodes: &mesh.nodes, triangles: &mesh.triangles, unit: mesh.unit };
+    let cells = mesh.cells();
+    let centers = cells.centers(nodes);
+    let top = |node: usize| mesh.heights.as_ref().map_or(0.0, |heights| heights[node]);
+    let thickness = cells.at_centers(nodes, &centers, |node| top(node) + depths[node]);
+    let broken = thickness.iter().zip(0..).filter(|(thickness, _)| **thickness <= 0.0);
+    let found = |(thickness, cell): (&f64, usize)| BrokenPlace {
+        place: centers[cell],
+        sentence: format!("Cell {} is {} thick.", cell + 1, digits(*thickness, 4)),
+    };
+    broken.map(found).collect()
 }

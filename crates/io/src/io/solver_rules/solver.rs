@@ -98,7 +98,7 @@ impl Solver {
 
     /// Returns whether its files have quadrilaterals unless triangles are asked for.
     pub(super) fn wants_squares(self) -> bool {
-        self == Self::Delft3dFm
+        matches!(self, Self::Delft3dFm | Self::Modflow)
     }
 
     /// Returns whether open pieces that meet are one string in its files.

@@ -161,6 +161,46 @@ fn flow_links_vanish_where_four_nodes_lie_on_one_circle() {
 }
 
 #[test]
+fn modflow_divides_by_the_length_of_connections_and_takes_oblique_ones_for_straight() {
+    // The pair of a square shares its centre; as a rule MODFLOW gets one square.
+    let mut pair = two_triangles(Vec::new());
+    near(&places(&pair, "connection_of_no_length"), &[[1.0, 1.0]]);
+    pair.joins_cells = true;
+    near(&places(&pair, "connection_of_no_length"), &[]);
+    let kite = |x: f64, height: f64| {
+        let nodes = [[0.0, 0.0], [x, -height], [2.0, 0.0], [x, height]];
+        mesh(&nodes, &[[0, 1, 2], [0, 2, 3]], Vec::new())
+    };
+    // Its connection is (height² - 1) / height long, and the root of the area of a triangle √height.
+    for (height, has_none) in [(1.0004, true), (1.0006, false), (2.0, false)] {
+        assert_eq!((height * height - 1.0) / height < 1e-3 * f64::sqrt(height), has_none);
+        near(
+            &places(&kite(1.0, height), "connection_of_no_length"),
+            if has_none { &[[1.0, 0.0]] } else { &[] },
+        );
+        near(&places(&kite(1.0, height), "oblique_connection"), &[]);
+    }
+    // The centre of a flat triangle is held at its longest edge, away from the perpendicular of the edge.
+    let obtuse =
+        mesh(&[[0.0, 0.0], [4.0, 0.0], [2.0, 3.0], [-3.0, -0.9]], &[[0, 1, 2], [0, 3, 1]], Vec::new());
+    near(&places(&obtuse, "oblique_connection"), &[[2.0, 0.0]]);
+    assert!(rules_of(Solver::Modflow).all(|rule| !rule.needs_strings));
+}
+
+#[test]
+fn cells_of_modflow_have_a_thickness() {
+    // Four triangles around the middle, whose centres are the middles of the sides of the square.
+    let mut pond = square(Vec::new());
+    near(&places(&pond, "cell_without_thickness"), &[]);
+    pond.depths = Some(vec![0.0, 0.0, 4.0, 4.0, 9.0]);
+    near(&places(&pond, "cell_without_thickness"), &[[1.0, 0.0]]);
+    let sentence = &broken_rules(&pond, Solver::Modflow)[0].found[0].sentence;
+    assert_eq!(sentence, "Cell 1 is 0 thick.");
+    pond.heights = Some(vec![1.0, 1.0, -5.0, -5.0, 1.0]);
+    near(&places(&pond, "cell_without_thickness"), &[[2.0, 1.0], [1.0, 2.0], [0.0, 1.0]]);
+}
+
+#[test]
 fn in_degrees_flow_links_are_those_on_the_ground() {
     // At 60° a degree of longitude is half as long as one of latitude.
     let rhombus = |height: f64, unit| {

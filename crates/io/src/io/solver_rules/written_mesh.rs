@@ -34,6 +34,8 @@ pub struct WrittenMesh {
     pub joins_cells: bool,
     /// The depth at each node, positive downwards, if the file has depths.
     pub depths: Option<Vec<f64>>,
+    /// The height of the surface at each node, if the file has one.
+    pub heights: Option<Vec<f64>>,
     /// The strings of the boundary, if the boundary can be divided.
     pub strings: Vec<WrittenString>,
     /// For each node whether the file marks it as open.
@@ -77,6 +79,7 @@ impl WrittenMesh {
         let all = strings.iter().flat_map(|strings| strings.all().map(written)).collect();
         let mut mesh = Self::new(nodes, triangles, all);
         mesh.depths = data.depths().map(<[f64]>::to_vec);
+        mesh.heights = data.heights.map(<[f64]>::to_vec);
         mesh.unit = data.provenance.unit();
         mesh.joins_cells = match data.cells {
             CellShape::OfFormat => solver.wants_squares(),
