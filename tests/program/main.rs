@@ -19,6 +19,7 @@ mod path_routes;
 mod project;
 mod readme;
 mod recipe;
+mod partition;
 mod sequence;
 #[path = "../shared/runs.rs"]
 mod runs;

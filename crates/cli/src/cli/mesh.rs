@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::input::Input;
 use super::output::Output;
 use super::output_coordinates::OutputCoordinates;
+use super::partition;
 use super::requested_files::RequestedFiles;
 use super::sequence::{self, SequenceStart};
 use super::standard_output;
@@ -68,6 +69,9 @@ pub fn run(
     note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
     let origin = || provenance(&finished, line, &input, OutputCoordinates::Plane);
     typed.curve.write((&finished, &extract), details.as_ref(), origin, terminal)?;
+    let of_mesh = (&finished, &extract);
+    summary.partition =
+        partition::write(typed.parts_for, &files, of_mesh, details.as_ref(), coordinates, terminal)?;
     if let Some(details) = details.filter(|_| writes) {
         let start = SequenceStart { finished: &finished, extract: &extract, files: &files, coordinates };
         summary.sequence = start.write(typed.sequence, details, uses, terminal)?;
@@ -93,6 +97,10 @@ fn all_files(
 ) -> Result<Vec<RequestedFiles>, Failure> {
     let mut files = input.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
     files.push(by_options);
+    let divided = files.into_iter().map(|files| files.divided(typed.parts_for));
+    let files: Vec<RequestedFiles> = divided.collect();
+    let all: Vec<Output> = files.iter().flat_map(|files| files.outputs.clone()).collect();
+    partition::check(typed, &all)?;
     let inputs = input.files();
     let first_files = sequence::first_files(typed, files.clone())?;
     let mut outputs = first_files.iter().flat_map(|files| &files.outputs);

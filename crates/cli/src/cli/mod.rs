@@ -22,6 +22,7 @@ mod opened_file;
 mod options;
 pub mod output;
 pub mod output_coordinates;
+mod partition;
 mod path;
 mod path_proof;
 mod points;

@@ -1,7 +1,7 @@
 //! Output files: checks before the work, and the look of pictures.
 
 use std::fmt::Display;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
@@ -12,7 +12,7 @@ use super::standard_output::StandardOutput;
 use meshbrush_core::earth::DegreeStyle;
 use meshbrush_io::io::CellShape;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{KeyFault, MeshData, Meter, ThirdCoordinate, obstacle};
+use meshbrush_io::io::{KeyFault, MeshData, Meter, PartitionFigures, ThirdCoordinate, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::Number;
 use meshbrush_render::colormap::{Colormap, LevelColors, UnknownColormap};
@@ -88,6 +88,25 @@ impl Output {
             path.with_file_name(name)
         };
         Self { path: self.path.as_ref().map(named), ..*self }
+    }
+
+    /// Returns the file with the part of each cell.
+    pub fn parts_file(&self, parts: u32) -> PathBuf {
+        let path = self.path.as_deref().unwrap_or(Path::new("-"));
+        self.format.mesh().map_or_else(|| path.to_owned(), |format| format.parts_file(path, parts))
+    }
+
+    /// Writes the part of each cell, and returns its file and how even the parts are; `None` for a picture
+    /// and for standard output.
+    pub fn write_parts(
+        &self,
+        mesh: &Extract,
+        data: &MeshData,
+        parts: u32,
+        meter: &Meter,
+    ) -> Option<io::Result<(PathBuf, PartitionFigures)>> {
+        let (path, format) = (self.path.as_deref()?, self.format.mesh()?);
+        Some(format.write_parts(path, mesh, data, parts, meter))
     }
 
     /// Returns whether it is standard output.

@@ -45,6 +45,8 @@ pub struct RequestedFiles {
     is_flat: bool,
     /// The cells of formats that can have quadrilaterals.
     cells: CellShape,
+    /// The parts for a solver on several processors.
+    parts_for: Option<u32>,
 }
 
 /// Refuses too many values of an option.
@@ -75,7 +77,7 @@ impl RequestedFiles {
         if let Some(output) = outputs.iter().find(|output| !output.can_have(cells)) {
             return Err(Failure::Usage(format!("--cells squares: {} {TRIANGLES_ONLY}", output.name())));
         }
-        Ok(Self { outputs, look, quantities, is_flat: typed.flat, cells })
+        Ok(Self { outputs, look, quantities, is_flat: typed.flat, cells, parts_for: None })
     }
 
     /// Returns the files that a recipe requests, in its order.
@@ -121,13 +123,23 @@ impl RequestedFiles {
         if !file.can_have(cells) {
             return Err(KeyFault::value("cells", format!("the file {TRIANGLES_ONLY}")));
         }
-        Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat, cells })
+        Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat, cells, parts_for: None })
     }
 
     /// Returns the same with a number in the name of each file.
     pub fn numbered(&self, number: u32) -> Self {
         let outputs = self.outputs.iter().map(|output| output.numbered(number)).collect();
         Self { outputs, quantities: self.quantities.clone(), ..*self }
+    }
+
+    /// Returns the same with the mesh in so many parts.
+    pub fn divided(self, parts_for: Option<u32>) -> Self {
+        Self { parts_for, ..self }
+    }
+
+    /// Returns the cells of formats that can have quadrilaterals.
+    pub fn cells(&self) -> CellShape {
+        self.cells
     }
 
     /// Returns the quantity that is the depth, if one is and a file has it.
@@ -248,7 +260,11 @@ pub fn write_files(
             look.missing_furniture().iter().for_each(|note| terminal.note(note));
         }
         let quantities = files.values_at_nodes(&exported, Vec::new())?;
-        let data = MeshData { cells: files.cells, ..exported.data(&quantities, files.is_flat) };
+        let data = MeshData {
+            cells: files.cells,
+            parts_for: files.parts_for,
+            ..exported.data(&quantities, files.is_flat)
+        };
         for output in &files.outputs {
             let meter = interruption.meter();
             let write = || exported.write(output, placed, &data, &look, &meter);
@@ -404,7 +420,7 @@ impl ExportedMesh<'_> {
         let surface = quantities.iter().find(|values| values.name == SURFACE && !is_flat);
         let heights = surface.map(|surface| &*surface.values);
         let cells = CellShape::OfFormat;
-        MeshData { target_diameter, quantities, heights, boundary, parts, cells, provenance }
+        MeshData { target_diameter, quantities, heights, boundary, parts, cells, parts_for: None, provenance }
     }
 
     /// Returns the nodes and triangles with other coordinates, if these are not those of the mesh.

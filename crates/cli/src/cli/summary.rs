@@ -9,6 +9,7 @@ use super::details::{
     CourantSummary, DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
     SurfaceSummary,
 };
+use super::partition::PartitionSummary;
 use super::quality::QualitySummary;
 use super::sequence::SequenceMesh;
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
@@ -76,6 +77,9 @@ pub struct Summary {
     /// The meshes of a sequence, each with every node of the one before, if several are asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sequence: Option<Vec<SequenceMesh>>,
+    /// The parts for a solver on several processors, if they are asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub partition: Option<PartitionSummary>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -334,6 +338,7 @@ impl Summary {
                 .map(|(fit, rule)| SurfaceSummary::new(fit, rule.samples().count())),
             straits: details.and_then(|details| details.straits.clone()),
             sequence: None,
+            partition: None,
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
             capped: finished.capped,

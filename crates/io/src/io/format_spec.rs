@@ -34,6 +34,8 @@ pub struct FormatSpec {
     pub has_open_boundary: bool,
     /// Whether its files can have quadrilaterals.
     pub squares: SquareCells,
+    /// The name of the file in which its solver looks for the part of each cell, if it has one.
+    pub parts_file: Option<&'static str>,
     /// What the third coordinate of its nodes is.
     pub third: ThirdCoordinate,
     /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
@@ -57,6 +59,7 @@ impl FormatSpec {
             has_targets: false,
             has_open_boundary: false,
             squares: SquareCells::Impossible,
+            parts_file: None,
             third: ThirdCoordinate::None,
             beside: &[],
             write,

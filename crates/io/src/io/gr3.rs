@@ -21,6 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     size: fort14::SIZE,
     has_open_boundary: true,
     squares: SquareCells::Possible,
+    parts_file: Some("partition.prop"),
     ..FormatSpec::new("gr3", &["gr3"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 
@@ -30,6 +31,7 @@ pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
     size: fort14::SIZE,
     has_open_boundary: true,
     squares: SquareCells::Possible,
+    parts_file: Some("partition.prop"),
     ..FormatSpec::new("ll", &["ll"], |out, mesh, data, meter| {
         write_in_degrees(&mut meter.count(out), mesh, data)
     })

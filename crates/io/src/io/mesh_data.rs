@@ -25,6 +25,8 @@ pub struct MeshData<'a> {
     ///
     /// [`MeshFormat::holds_squares`]: super::MeshFormat::holds_squares
     pub cells: CellShape,
+    /// The number of parts for a solver on several processors, for formats that have the part of each cell.
+    pub parts_for: Option<u32>,
     /// The origin of the mesh, for all formats except `.csv`, whose readers take no comments.
     pub provenance: &'a Provenance,
 }

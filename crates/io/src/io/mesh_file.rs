@@ -3,9 +3,10 @@ use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::atomic::{Draft, put_in_place};
+use super::atomic::{Draft, put_in_place, write_file_metered};
 use super::format_spec::{FormatSpec, SquareCells, ThirdCoordinate, TypicalSize, WriteMesh};
 use super::formats::MESH_FORMATS;
+use super::partition::{self, PartLines, PartitionFigures};
 use super::{MeshData, Meter};
 use meshbrush_mesh::mesh::Extract;
 
@@ -147,6 +148,43 @@ impl MeshFormat {
         let drafts = files.iter().zip(writers).map(draft).collect::<io::Result<Vec<_>>>()?;
         put_in_place(drafts, meter)?;
         Ok(files)
+    }
+
+    /// Returns the file with the part of each cell, beside an export to `path`: the one in which the solver
+    /// looks for it, or one that is named as METIS does.
+    pub fn parts_file(self, path: &Path, parts: u32) -> PathBuf {
+        if let Some(name) = self.spec.parts_file {
+            return path.with_file_name(name);
+        }
+        let mut name = path.file_name().unwrap_or_default().to_owned();
+        name.push(format!(".part.{parts}"));
+        path.with_file_name(name)
+    }
+
+    /// Writes the part of each cell to [`Self::parts_file`], and returns it, and how even the parts are.
+    ///
+    /// # Errors
+    /// Fails with the errors of the file system, where there are more parts than cells, and when the work was
+    /// cancelled.
+    pub fn write_parts(
+        self,
+        path: &Path,
+        mesh: &Extract,
+        data: &MeshData,
+        parts: u32,
+        meter: &Meter,
+    ) -> io::Result<(PathBuf, PartitionFigures)> {
+        let file = self.parts_file(path, parts);
+        let lines =
+            if self.spec.parts_file.is_some() { PartLines::NumbersAndParts } else { PartLines::Parts };
+        let mut figures = None;
+        write_file_metered(&file, meter, |out| {
+            let mut out = meter.count(out);
+            figures = Some(partition::write(&mut out, mesh, data, self.spec.squares, lines, parts)?);
+            Ok(())
+        })?;
+        let figures = figures.ok_or_else(|| io::Error::other("the parts were not written"))?;
+        Ok((file, figures))
     }
 
     /// Returns how many bytes the files of a mesh have, all together, without writing one.

@@ -7,7 +7,8 @@
 //! Further values at the nodes are `mesh2d_target_diameter` (h̄) and `mesh2d_quantity_…`; `mesh2d_level` is
 //! on faces. `mesh2d_boundary` has the marker of the piece of each boundary edge, 0 inside; the names of the
 //! pieces are its `flag_meanings`, with `_` for blanks and signs. Where types of pieces are set, `flag_types`
-//! has the type of each, likewise. UGRID has no strings of nodes.
+//! has the type of each, likewise. UGRID has no strings of nodes. `idomain` on faces is the number of the
+//! processor, from 0, where parts are asked for.
 //!
 //! A mesh in degrees has longitudes and latitudes in WGS 84; the coordinate system of others is not known.
 //! Global attributes describe the origin of the mesh.
@@ -15,6 +16,7 @@
 use std::io::{self, Write};
 
 use super::netcdf_writer::{AttributeValue, Attributes, Dataset, VariableType, WriteRow, WrittenVariable};
+use super::partition::Partition;
 use super::triangle_pieces::TrianglePieces;
 use super::written_cells::WrittenCells;
 use super::{FormatSpec, MeshData, Meter, SquareCells, TypicalSize};
@@ -64,6 +66,7 @@ pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, mete
     variables.extend(node_values(data));
     variables.extend([edge_nodes(mesh, cells), boundary(mesh, data, &pieces, cells)]);
     variables.extend([face_nodes(cells), levels(mesh, cells)]);
+    variables.extend(domains(mesh, data, cells));
     let dataset = Dataset { dimensions: dimensions(mesh, edges, cells), attributes: origin(data), variables };
     dataset.write(out, meter)
 }
@@ -314,4 +317,19 @@ fn levels<'a>(mesh: &'a Extract, cells: &'a WrittenCells<'_>) -> WrittenVariable
         out.write_all(&(levels[0].min(levels[1]) as i32).to_be_bytes())
     });
     whole("mesh2d_level", vec![FACES], attributes, cells.count(), write_row)
+}
+
+/// Returns the part of each cell, where parts are asked for.
+fn domains<'a>(mesh: &Extract, data: &MeshData, cells: &'a WrittenCells<'_>) -> Option<WrittenVariable<'a>> {
+    let parts = data.parts_for?;
+    let attributes = vec![
+        ("long_name", "number of the domain of each face, from 0".into()),
+        ("mesh", "mesh2d".into()),
+        ("location", "face".into()),
+    ];
+    let partition = Partition::new(mesh, cells, parts);
+    let write_row = Box::new(move |out: &mut Vec<u8>, cell: usize| {
+        out.write_all(&(partition.owner(cell) as i32).to_be_bytes())
+    });
+    Some(whole("idomain", vec![FACES], attributes, cells.count(), write_row))
 }

@@ -193,6 +193,7 @@ impl MeshExport {
             boundary: &boundary,
             parts: &extract.part_numbers(),
             cells: CellShape::OfFormat,
+            parts_for: None,
             provenance: &provenance_of(settings, self.mesh.fingerprint(), is_model),
         };
         let nodes = settings.domain.nodes_in(&Coordinates::Geographic, extract).filter(|_| !is_model);

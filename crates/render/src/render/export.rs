@@ -138,6 +138,14 @@ impl ExportFormat {
         matches!(self, Self::Mesh(format) if format.has_open_boundary())
     }
 
+    /// Returns the format of files with the mesh itself; `None` for pictures.
+    pub fn mesh(self) -> Option<MeshFormat> {
+        match self {
+            Self::Mesh(format) => Some(format),
+            Self::Svg | Self::Png => None,
+        }
+    }
+
     /// Returns whether its files can have quadrilaterals.
     pub fn holds_squares(self) -> bool {
         matches!(self, Self::Mesh(format) if format.holds_squares())

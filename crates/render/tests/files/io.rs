@@ -90,6 +90,7 @@ impl Sample {
             boundary,
             parts,
             cells: CellShape::Triangles,
+            parts_for: None,
             provenance,
         }
     }

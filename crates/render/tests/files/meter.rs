@@ -66,6 +66,7 @@ impl Details {
             boundary,
             parts,
             cells: CellShape::Triangles,
+            parts_for: None,
             provenance,
         }
     }

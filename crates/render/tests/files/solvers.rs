@@ -104,6 +104,7 @@ impl Case {
             boundary,
             parts,
             cells: CellShape::Triangles,
+            parts_for: None,
             provenance,
         }
     }

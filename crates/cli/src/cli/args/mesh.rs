@@ -76,6 +76,14 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16), help_heading = "Output")]
     pub sequence: Option<u32>,
 
+    /// Divide the mesh into so many parts for a solver on several processors, beside each file: to
+    /// partition.prop for .gr3 and .ll, and sea.14.part.64 for -o sea.14
+    ///
+    /// Parts follow the curve of the bisection tree, so that each is in one place, and have the same number
+    /// of cells, or one more. .nc has them as `idomain`, too.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Output")]
+    pub parts_for: Option<u32>,
+
     /// Least depth in files, in metres: nodes that are less deep are written with it
     ///
     /// As in 3: at the shore depths are 0, and such nodes fall dry. The mesh stays as it is. Headers say it,
