@@ -18,7 +18,9 @@ use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand};
 const SIZES: [Vec2; 3] = [vec2(1280.0, 720.0), vec2(1280.0 / 1.5, 480.0), vec2(640.0, 360.0)];
 
 /// A height with room for every section of a tab, in points.
-const TALL: f32 = 4000.0;
+const TALL: f32 = 8000.0;
+/// More sections than a tab has.
+const MOST_SECTIONS: usize = 40;
 
 /// A text as it was painted.
 struct PaintedText {
@@ -94,7 +96,7 @@ fn report(window: &Window, what: &str, found: &mut BTreeSet<String>) {
 
 /// Opens every section of the docks that is in the window.
 fn open_sections(window: &mut Window) {
-    loop {
+    for _ in 0..MOST_SECTIONS {
         let closed = window.query_all_by_role(Role::Button).find(|node| {
             node.accesskit_node().data().is_expanded() == Some(false)
                 && node.rect().left() > canvas(window).right()
@@ -103,6 +105,7 @@ fn open_sections(window: &mut Window) {
         header.click();
         window.run();
     }
+    panic!("a section stays closed: its header is out of sight");
 }
 
 /// Looks at every tab and every layer of an example, in a window of a size and in one that is as wide and has
