@@ -34,8 +34,11 @@ fn every_file_is_the_same_for_any_number_of_threads() {
     let square = r#"{"type":"Polygon","coordinates":[[[0,0],[4,0.5],[4,3],[0,4],[0,0]],
                      [[1,1],[1,2],[2,1.5],[1,1]]]}"#;
     let options = ["--region", "in.geojson", "--risk", "exp(-hypot(x-3,y-2))", "--h-min", "0.02"];
-    let outputs: Vec<String> = ExportFormat::endings().map(|ending| format!("mesh.{ending}")).collect();
+    // A grid of MODFLOW needs lengths, and `.ll` degrees.
+    let endings = ExportFormat::endings().filter(|ending| *ending != "disv");
+    let outputs: Vec<String> = endings.map(|ending| format!("mesh.{ending}")).collect();
     let outputs = outputs.iter().flat_map(|name| ["-o", name]);
+    let in_metres = vec!["mesh", "--domain", "0,0,4,4", "--risk", "x/4", "--h-min", "0.1", "-o", "mesh.disv"];
     let mesh: Vec<&str> =
         ["mesh"].into_iter().chain(options).chain(outputs).chain(["--quantity", "sin(x)"]).collect();
     let binary = [&["mesh"], &options[..], &["-o", "binary.msh", "--binary"]].concat();
@@ -43,7 +46,9 @@ fn every_file_is_the_same_for_any_number_of_threads() {
     let ends = ["--from", "0.5,0.5", "--to", "3.5,2", "-o", "path.csv", "-o", "path.geojson"];
     let path = [&["path"], &options[..], &ends].concat();
     let with_threads = |threads: &str| {
-        for (command, first) in [(&mesh, true), (&binary, false), (&locate, false), (&path, true)] {
+        for (command, first) in
+            [(&mesh, true), (&in_metres, true), (&binary, false), (&locate, false), (&path, true)]
+        {
             folder.file("in.geojson", square);
             folder.file("points.csv", "x,y\n0.3,0.3\n2,2\n3,9\n");
             let option = format!("--threads={threads}");
