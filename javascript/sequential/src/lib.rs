@@ -1,6 +1,7 @@
 //! What meshbrush uses of rayon, on one thread: a page has no others. Results are the same, as they are for
 //! any number of threads.
 
+use std::cmp::Ordering;
 use std::iter::Sum;
 use std::ops::Range;
 use std::slice::{Chunks, ChunksMut, Iter, IterMut, Windows};
@@ -222,6 +223,14 @@ impl<I: Iterator> Entries<I> {
         other: O,
     ) -> Entries<impl Iterator<Item = I::Item>> {
         Entries(self.0.chain(other.into_par_iter().0))
+    }
+
+    pub fn step_by(self, step: usize) -> Entries<impl Iterator<Item = I::Item>> {
+        Entries(self.0.step_by(step))
+    }
+
+    pub fn min_by(self, compare: impl FnMut(&I::Item, &I::Item) -> Ordering) -> Option<I::Item> {
+        self.0.min_by(compare)
     }
 
     pub fn for_each(self, act: impl FnMut(I::Item)) {
