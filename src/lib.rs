@@ -112,7 +112,7 @@ pub use meshbrush_core::earth::{
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};
 #[doc(inline)]
 pub use meshbrush_io::io::{
-    Cancelled, CellShape, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues,
+    Cancelled, CellShape, Counted, Flaw, JoinedCells, MeshData, MeshFormat, MeshSource, Meter, NodeValues,
     PartitionFigures, PlaceInFile, Provenance, ReadError, ThirdCoordinate,
 };
 #[doc(inline)]

@@ -9,11 +9,11 @@ use super::args::CheckArguments;
 use super::build::{FinishedMesh, build};
 use super::depths::LeastDepth;
 use super::details::{DetailUses, MeshDetails};
+use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
 use super::input::Input;
 use super::mesh::note_capped;
 use super::quantities::typed_quantities;
-use super::requested_files::ExportedMesh;
 use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
@@ -75,7 +75,7 @@ pub fn run(
     let answer = CheckAnswer::new(&finished, &written, typed.solver, meaning.unwrap_or_default(), &broken);
     let text = match typed.json {
         true => serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))? + "\n",
-        false => answer.for_people(&broken),
+        false => answer.for_people(typed.solver, &broken),
     };
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(Failure::Print)?;
     match answer.violations.len() {
@@ -171,9 +171,8 @@ impl<'a> CheckAnswer<'a> {
     }
 
     /// Returns a line about the mesh, and for each broken rule its first places and what helps.
-    fn for_people(&self, broken: &[BrokenRule]) -> String {
-        let solver: Result<Solver, _> = self.solver.parse();
-        let name = solver.map_or(self.solver, Solver::name);
+    fn for_people(&self, solver: Solver, broken: &[BrokenRule]) -> String {
+        let name = solver.name();
         let (violations, rules) = (self.violations.len(), self.rules.len());
         let (triangles, coordinates) = (counted(self.triangles, "triangle"), self.coordinates);
         let found = if violations == 0 { "no violation".into() } else { counted(violations, "violation") };

@@ -11,7 +11,7 @@ use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{CourantFit, DepthFit, Layer, NoDepth, NodeDepths, StraitCount, Straits};
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
-use meshbrush_io::io::{MeshSource, Provenance};
+use meshbrush_io::io::{JoinedCells, MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::{Grouped, digits};
 
@@ -21,6 +21,8 @@ pub struct MeshDetails {
     pub boundary: MeshBoundary,
     /// For each triangle the number of its part, from the largest.
     pub parts: Vec<u32>,
+    /// The cells with pairs of triangles joined, in the coordinates of files, once a file has them.
+    pub joined: JoinedCells,
     /// The origin of the mesh.
     pub provenance: Provenance,
     /// The depths at the nodes, if a layer has them and they are wanted.
@@ -111,6 +113,7 @@ impl MeshDetails {
         Ok(Self {
             boundary,
             parts,
+            joined: JoinedCells::default(),
             provenance,
             depths,
             courant,

@@ -11,6 +11,7 @@ mod command_line;
 mod depths;
 pub mod details;
 mod error_curve;
+mod exported_mesh;
 pub mod failure;
 pub mod input;
 mod lengths;

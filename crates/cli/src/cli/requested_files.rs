@@ -6,6 +6,7 @@ use super::args::MeshArguments;
 use super::build::FinishedMesh;
 use super::depths::LeastDepth;
 use super::details::MeshDetails;
+use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::output_coordinates::OutputCoordinates;
@@ -13,15 +14,14 @@ use super::quantities::{NamedQuantity, QuantityError, expression, parse_quantiti
 use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
 use meshbrush_core::cells::{LARGEST_COSINE, LinkFigures};
-use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{
-    CellShape, DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE,
-    ThirdCoordinate, UnknownCells, joined_cells,
+    CellShape, DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, SURFACE, ThirdCoordinate,
+    UnknownCells, joined_cells, joined_links,
 };
 use meshbrush_mesh::mesh::Extract;
-use meshbrush_mesh::text::{Grouped, LengthUnit, digits};
+use meshbrush_mesh::text::{Grouped, digits};
 use meshbrush_render::render::Image;
 use meshbrush_render::render::export::{ExportFormat, NO_SVG_IN_SPACE};
 use meshbrush_render::render::look::Look;
@@ -204,27 +204,6 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
     }
 }
 
-/// Why coordinates in a file cannot be those of another plane.
-pub(super) const NOT_ON_EARTH: &str = "--out-crs: the domain is not in the plane of a projection, so its coordinates are those of its \
-     files. Choose a plane with --projection, or leave this out.";
-
-/// A mesh as its files have it.
-#[derive(Clone, Copy)]
-pub struct ExportedMesh<'a> {
-    /// The mesh.
-    pub finished: &'a FinishedMesh,
-    /// Its nodes and triangles.
-    pub extract: &'a Extract<'a>,
-    /// Its boundary, parts and depths.
-    pub details: &'a MeshDetails,
-    /// Where it comes from, and what its coordinates are.
-    pub provenance: &'a Provenance,
-    /// Its coordinates in files.
-    pub coordinates: OutputCoordinates,
-    /// h̄ at each node; not needed where no format has it.
-    pub target_diameter: &'a [f64],
-}
-
 /// Writes files, and says which.
 ///
 /// # Errors
@@ -285,8 +264,8 @@ pub fn write_files(
 
 /// Returns a sentence about the cells of a file with quadrilaterals, and about the links between them.
 fn links_in_words(output: &Output, mesh: &Extract, data: &MeshData) -> String {
-    let (cells, figures) = joined_cells(mesh, data);
-    let LinkFigures { links, short, skewed, not_orthogonal, .. } = figures;
+    let cells = joined_cells(mesh, data);
+    let LinkFigures { links, short, skewed, not_orthogonal, .. } = joined_links(mesh, data);
     let joined = cells.joined_count();
     let share = 100.0 * not_orthogonal as f64 / links.max(1) as f64;
     format!(
@@ -386,57 +365,5 @@ impl RequestedFiles {
             }
         }
         Ok(values)
-    }
-}
-
-impl ExportedMesh<'_> {
-    /// Writes a file with the nodes and triangles as they are `placed`.
-    ///
-    /// A model in space with heights is placed in the plane of a projection instead of in degrees: its
-    /// coordinates are lengths.
-    fn write(
-        &self,
-        output: &Output,
-        placed: &Extract,
-        data: &MeshData,
-        look: &Look,
-        meter: &Meter,
-    ) -> Result<Vec<PathBuf>, Failure> {
-        let mesh = self.finished.mesh();
-        let is_model = output.third_coordinate() == ThirdCoordinate::Model && data.heights.is_some();
-        match self.finished.domain().projection {
-            Some(plane) if is_model && data.provenance.unit() == LengthUnit::Degree => {
-                let provenance = &data.provenance.clone().in_plane(&plane);
-                output.write(mesh, self.extract, &MeshData { provenance, ..*data }, look, meter)
-            }
-            _ => output.write(mesh, placed, data, look, meter),
-        }
-    }
-
-    /// Returns the data of the mesh with these values at the nodes. A flat mesh has no heights.
-    pub(super) fn data<'a>(&'a self, quantities: &'a [NodeValues], is_flat: bool) -> MeshData<'a> {
-        let Self { details, provenance, target_diameter, .. } = *self;
-        let MeshDetails { boundary, parts, .. } = details;
-        let surface = quantities.iter().find(|values| values.name == SURFACE && !is_flat);
-        let heights = surface.map(|surface| &*surface.values);
-        let cells = CellShape::OfFormat;
-        MeshData { target_diameter, quantities, heights, boundary, parts, cells, parts_for: None, provenance }
-    }
-
-    /// Returns the nodes and triangles with other coordinates, if these are not those of the mesh.
-    ///
-    /// # Errors
-    /// Fails where the domain is not in the plane of a projection.
-    pub(super) fn in_coordinates(&self) -> Result<Option<Extract<'_>>, Failure> {
-        let domain = self.finished.domain();
-        let nodes = match self.coordinates {
-            OutputCoordinates::Lonlat => domain.nodes_in(&Coordinates::Geographic, self.extract),
-            OutputCoordinates::Plane => None,
-            OutputCoordinates::Other(coordinates) => {
-                let nodes = domain.nodes_in(&coordinates, self.extract);
-                Some(nodes.ok_or_else(|| Failure::Usage(NOT_ON_EARTH.into()))?)
-            }
-        };
-        Ok(nodes.map(|nodes| self.extract.with_coordinates(nodes)))
     }
 }

@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use glam::DVec2;
 
 use super::edges::InnerEdge;
-use super::links::{CellLink, edges_of, is_among, link, links_of, scale};
+use super::links::{CellLink, edge_between, edges_of, link, links_of, scale};
 use super::{CellNodes, MeshCell, MeshCells};
 
 /// Pairs whose link is shorter than this share of the size of their cells are joined: half as much again as
@@ -86,26 +86,26 @@ impl<'a> Pairing<'a> {
 
     /// Joins the pair beside an edge between triangles that leaves least, if it leaves less than there is.
     fn join_beside(&mut self, ends: [usize; 2]) -> bool {
-        let Ok(across) = self.edges.binary_search_by_key(&ends, |edge| edge.ends) else { return false };
+        let Some(across) = edge_between(self.edges, ends) else { return false };
         let sides = self.edges[across].cells;
         let candidates = sides.iter().flat_map(|&triangle| self.edges_at[triangle].iter().copied());
         let mut candidates: Vec<usize> = candidates.filter(|&edge| self.can_join(edge)).collect();
         candidates.sort_unstable();
         candidates.dedup();
-        let mut best: Option<(usize, usize, f64, usize)> = None;
+        // The bad links that it saves, the largest cosine that it leaves, and the edge.
+        let mut best: Option<(usize, f64, usize)> = None;
         for edge in candidates {
             let around = self.edges[edge].cells;
             let touched = self.links_around(&[sides[0], sides[1], around[0], around[1]]);
-            let before = self.badness(&touched);
+            let (bad_before, _) = self.badness(&touched);
             self.join(edge);
-            let after = self.badness(&touched);
+            let (bad_after, cosine) = self.badness(&touched);
             self.separate(edge);
-            let saved = before.0.saturating_sub(after.0);
-            let is_better = after.0 < before.0
-                && best
-                    .is_none_or(|(most, _, cosine, _)| saved > most || (saved == most && after.1 < cosine));
-            if is_better {
-                best = Some((saved, after.0, after.1, edge));
+            let saved = bad_before.saturating_sub(bad_after);
+            let is_better =
+                best.is_none_or(|(most, least, _)| saved > most || (saved == most && cosine < least));
+            if saved > 0 && is_better {
+                best = Some((saved, cosine, edge));
             }
         }
         best.map(|(.., edge)| self.join(edge)).is_some()
@@ -141,7 +141,8 @@ impl<'a> Pairing<'a> {
             return None;
         }
         let cells = cells.map(|triangle| self.cell(triangle));
-        Some(link(self.mesh, ends, [&cells[0], &cells[1]], |edge| is_among(self.edges, edge)))
+        let is_inner = |ends| edge_between(self.edges, ends).is_some();
+        Some(link(self.mesh, ends, [&cells[0], &cells[1]], is_inner))
     }
 
     fn join(&mut self, edge: usize) {

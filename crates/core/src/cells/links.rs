@@ -130,7 +130,7 @@ pub(super) fn edges_of(cells: &[MeshCell]) -> Vec<InnerEdge> {
 
 /// Returns the link across each edge.
 pub(super) fn links_of(mesh: CellNodes<'_>, cells: &[MeshCell], edges: &[InnerEdge]) -> Vec<CellLink> {
-    let is_inner = |edge| is_among(edges, edge);
+    let is_inner = |ends| edge_between(edges, ends).is_some();
     let link = |edge: &InnerEdge| link(mesh, edge.ends, edge.cells.map(|cell| &cells[cell]), is_inner);
     edges.par_iter().map(link).collect()
 }
@@ -145,13 +145,13 @@ pub(super) fn centers_of(mesh: CellNodes<'_>, cells: &[MeshCell]) -> Vec<DVec2> 
         let latitudes = corners.iter().map(|&node| mesh.nodes[node].y).sum::<f64>();
         let scale = scale(mesh.unit, latitudes / corners.len() as f64);
         let placed: Vec<DVec2> = corners.iter().map(|&node| scale * (mesh.nodes[node] - origin)).collect();
-        let inner: Vec<bool> = cell.edges().map(|edge| is_among(&edges, edge)).collect();
+        let inner: Vec<bool> = cell.edges().map(|ends| edge_between(&edges, ends).is_some()).collect();
         origin + center(&placed, &inner) / scale
     };
     cells.par_iter().map(center_of).collect()
 }
 
-/// Returns whether an edge is one between two cells.
-pub(super) fn is_among(edges: &[InnerEdge], [from, to]: [usize; 2]) -> bool {
-    edges.binary_search_by_key(&[from.min(to), from.max(to)], |edge| edge.ends).is_ok()
+/// Returns the number of the edge between two cells that joins two nodes, if there is one.
+pub(super) fn edge_between(edges: &[InnerEdge], [from, to]: [usize; 2]) -> Option<usize> {
+    edges.binary_search_by_key(&[from.min(to), from.max(to)], |edge| edge.ends).ok()
 }

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::Drawing;
 use crate::domain::{CutShape, Polygon, Ring, signed_area};
+use crate::geometry::is_around;
 
 impl Drawing {
     /// Returns the area that a fill at a point, in world units, adds: the hole around the point; or cuts
@@ -37,22 +38,10 @@ impl Drawing {
 /// Returns the smallest ring around a point, and whether it is a hole.
 fn innermost_ring(polygons: &[Polygon], point: DVec2) -> Option<(&Ring, bool)> {
     let rings = polygons.iter().flat_map(|polygon| polygon.iter().enumerate());
-    let around = rings.filter(|(_, ring)| encloses(ring, point));
+    let around = rings.filter(|(_, ring)| is_around(ring, point));
     let area = |ring: &Ring| signed_area(ring).abs();
     let smallest = around.min_by(|(_, a), (_, b)| area(a).total_cmp(&area(b)));
     smallest.map(|(number, ring)| (ring, number > 0))
-}
-
-/// Returns whether a ring encloses a point: a ray to the right crosses it an odd number of times.
-fn encloses(ring: &Ring, point: DVec2) -> bool {
-    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
-    let crossings = edges.filter(|(a, b)| {
-        (a.y > point.y) != (b.y > point.y) && {
-            let across = (*b - **a).perp_dot(point - **a);
-            (across > 0.0) == (b.y > a.y)
-        }
-    });
-    crossings.count() % 2 == 1
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 use std::io::{self, Write};
 
-use super::{CellShape, Provenance};
+use super::{CellShape, JoinedCells, Provenance};
 use meshbrush_core::domain::MeshBoundary;
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
@@ -25,6 +25,8 @@ pub struct MeshData<'a> {
     ///
     /// [`MeshFormat::holds_squares`]: super::MeshFormat::holds_squares
     pub cells: CellShape,
+    /// These cells, which the first file that has them finds for the others.
+    pub joined: &'a JoinedCells,
     /// The number of parts for a solver on several processors, for formats that have the part of each cell.
     pub parts_for: Option<u32>,
     /// The origin of the mesh, for all formats except `.csv`, whose readers take no comments.

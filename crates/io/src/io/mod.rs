@@ -132,4 +132,4 @@ pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
 pub use values::TextValue;
 pub use vertical::{UnitOfLength, ValueFacts, ValueUnit, VerticalSystem};
-pub use written_cells::{CellShape, UnknownCells, joined_cells};
+pub use written_cells::{CellShape, JoinedCells, UnknownCells, joined_cells, joined_links};

@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 use std::str::FromStr;
+use std::sync::OnceLock;
 
 use super::MeshData;
 use super::format_spec::SquareCells;
@@ -43,18 +44,23 @@ impl FromStr for CellShape {
     }
 }
 
+/// The cells of a mesh with pairs of triangles joined, which are found when a file first has them. A mesh in
+/// other coordinates has others.
+#[derive(Clone, Debug, Default)]
+pub struct JoinedCells(OnceLock<MeshCells>);
+
 /// The cells of a file.
 pub(super) struct WrittenCells<'a> {
     mesh: &'a Extract<'a>,
     /// None where all cells are triangles.
-    joined: Option<MeshCells>,
+    joined: Option<&'a MeshCells>,
     /// The diagonal of the quadrilateral that each triangle belongs to, the smaller node first.
     diagonals: Vec<Option<[usize; 2]>>,
 }
 
 impl<'a> WrittenCells<'a> {
     /// Returns the cells of a mesh, whose nodes are in the coordinates of the file.
-    pub(super) fn new(mesh: &'a Extract<'a>, data: &MeshData, squares: SquareCells) -> Self {
+    pub(super) fn new(mesh: &'a Extract<'a>, data: &MeshData<'a>, squares: SquareCells) -> Self {
         let joins = match data.cells {
             CellShape::OfFormat => squares == SquareCells::Usual,
             CellShape::Triangles => false,
@@ -63,12 +69,7 @@ impl<'a> WrittenCells<'a> {
         if !joins {
             return Self { mesh, joined: None, diagonals: Vec::new() };
         }
-        let (nodes, triangles) = arrays(mesh);
-        let cells = MeshCells::joined(CellNodes {
-            nodes: &nodes,
-            triangles: &triangles,
-            unit: data.provenance.unit(),
-        });
+        let cells = joined_cells(mesh, data);
         let mut diagonals = vec![None; mesh.triangles().len()];
         for cell in cells.list().iter().filter(|cell| cell.is_joined()) {
             cell.triangles.iter().for_each(|&triangle| diagonals[triangle] = Some(diagonal(mesh, cell)));
@@ -78,12 +79,12 @@ impl<'a> WrittenCells<'a> {
 
     /// Returns the number of cells.
     pub(super) fn count(&self) -> usize {
-        self.joined.as_ref().map_or_else(|| self.mesh.triangles().len(), |cells| cells.list().len())
+        self.joined.map_or_else(|| self.mesh.triangles().len(), |cells| cells.list().len())
     }
 
     /// Returns how many of them have four corners.
     pub(super) fn joined_count(&self) -> usize {
-        self.joined.as_ref().map_or(0, MeshCells::joined_count)
+        self.joined.map_or(0, MeshCells::joined_count)
     }
 
     /// Returns the most corners of a cell.
@@ -93,7 +94,7 @@ impl<'a> WrittenCells<'a> {
 
     /// Returns the corners of a cell, anticlockwise; the fourth is `None` for a triangle.
     pub(super) fn corners(&self, cell: usize) -> ([usize; 3], Option<usize>) {
-        match &self.joined {
+        match self.joined {
             None => (self.mesh.cell(TriangleId::from_index(cell)).corners, None),
             Some(cells) => {
                 let corners = cells.list()[cell].corners();
@@ -111,7 +112,7 @@ impl<'a> WrittenCells<'a> {
     ) -> (Vec<DVec2>, [Vec<f64>; N]) {
         let (nodes, triangles) = arrays(self.mesh);
         let nodes = CellNodes { nodes: &nodes, triangles: &triangles, unit };
-        let cells = match &self.joined {
+        let cells = match self.joined {
             Some(cells) => Cow::Borrowed(cells),
             None => Cow::Owned(MeshCells::triangles(nodes)),
         };
@@ -122,7 +123,7 @@ impl<'a> WrittenCells<'a> {
 
     /// Returns the triangles of a cell; the same one twice where it is one.
     pub(super) fn triangles(&self, cell: usize) -> [usize; 2] {
-        self.joined.as_ref().map_or([cell; 2], |cells| cells.list()[cell].triangles)
+        self.joined.map_or([cell; 2], |cells| cells.list()[cell].triangles)
     }
 
     /// Returns whether an edge of a triangle is an edge of its cell, and not inside it.
@@ -132,14 +133,19 @@ impl<'a> WrittenCells<'a> {
     }
 }
 
-/// Returns the cells of a mesh with pairs of triangles joined, and how the links between them are. Nodes are
-/// in the coordinates of a file.
-pub fn joined_cells(mesh: &Extract, data: &MeshData) -> (MeshCells, LinkFigures) {
+/// Returns the cells of a mesh with pairs of triangles joined. Its nodes are in the coordinates of a file.
+pub fn joined_cells<'a>(mesh: &Extract, data: &MeshData<'a>) -> &'a MeshCells {
+    data.joined.0.get_or_init(|| {
+        let (nodes, triangles) = arrays(mesh);
+        MeshCells::joined(CellNodes { nodes: &nodes, triangles: &triangles, unit: data.provenance.unit() })
+    })
+}
+
+/// Returns how the links between these cells are.
+pub fn joined_links(mesh: &Extract, data: &MeshData) -> LinkFigures {
     let (nodes, triangles) = arrays(mesh);
-    let mesh = CellNodes { nodes: &nodes, triangles: &triangles, unit: data.provenance.unit() };
-    let cells = MeshCells::joined(mesh);
-    let figures = cells.link_figures(mesh);
-    (cells, figures)
+    let nodes = CellNodes { nodes: &nodes, triangles: &triangles, unit: data.provenance.unit() };
+    joined_cells(mesh, data).link_figures(nodes)
 }
 
 fn arrays(mesh: &Extract) -> (Vec<DVec2>, Vec<[usize; 3]>) {

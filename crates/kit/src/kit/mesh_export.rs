@@ -14,8 +14,8 @@ use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::solver_rules::{BrokenRule, Severity, Solver, WrittenMesh, broken_rules};
 use meshbrush_io::io::{
-    CellShape, DEPTH, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
-    joined_cells,
+    CellShape, DEPTH, JoinedCells, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE,
+    ThirdCoordinate, joined_cells,
 };
 use meshbrush_mesh::mesh::{Extract, Fingerprint, Mesh, MeshView};
 use meshbrush_render::render::export::ExportFormat;
@@ -161,7 +161,7 @@ impl MeshExport {
 
     /// Returns how many quadrilaterals the files have.
     fn squares(&self, placed: &Extract, data: &MeshData) -> usize {
-        if self.format.wants_squares() { joined_cells(placed, data).0.joined_count() } else { 0 }
+        if self.format.wants_squares() { joined_cells(placed, data).joined_count() } else { 0 }
     }
 
     fn extract(&self) -> Extract<'static> {
@@ -193,6 +193,7 @@ impl MeshExport {
             boundary: &boundary,
             parts: &extract.part_numbers(),
             cells: CellShape::OfFormat,
+            joined: &JoinedCells::default(),
             parts_for: None,
             provenance: &provenance_of(settings, self.mesh.fingerprint(), is_model),
         };

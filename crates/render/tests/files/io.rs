@@ -7,8 +7,8 @@ use flate2::read::ZlibDecoder;
 use glam::{DVec2, DVec3, Vec3, dvec2};
 use meshbrush_core::domain::MeshBoundary;
 use meshbrush_io::io::{
-    CellShape, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, glb, msh, node, obj,
-    ply, png, sms, stl, svg, vtu,
+    CellShape, JoinedCells, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, glb, msh,
+    node, obj, ply, png, sms, stl, svg, vtu,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Extract, Limits, Mesh, NodeId, TriangleId};
@@ -38,6 +38,7 @@ struct Sample {
     heights: Option<Vec<f64>>,
     boundary: MeshBoundary,
     parts: Vec<u32>,
+    joined: JoinedCells,
     provenance: Provenance,
 }
 
@@ -61,7 +62,8 @@ impl Sample {
         let provenance = Provenance::new(MeshSource::Command(COMMAND), mesh.fingerprint(), "x, y");
         let surface = nodes().map(|p| libm::sin(3.0 * p.x) - 0.1 * p.y).collect();
         let (quantities, heights) = (vec![height], Some(surface));
-        Self { targets, quantities, heights, boundary, parts, provenance, mesh }
+        let joined = JoinedCells::default();
+        Self { targets, quantities, heights, boundary, parts, joined, provenance, mesh }
     }
 
     /// Returns a square without heights, a rectangle whose cells are not square, and a ring with a hole.
@@ -81,7 +83,7 @@ impl Sample {
     }
 
     fn data(&self) -> MeshData<'_> {
-        let Self { targets, quantities, heights, boundary, parts, provenance, .. } = self;
+        let Self { targets, quantities, heights, boundary, parts, joined, provenance, .. } = self;
         let heights = heights.as_deref();
         MeshData {
             target_diameter: targets,
@@ -90,6 +92,7 @@ impl Sample {
             boundary,
             parts,
             cells: CellShape::Triangles,
+            joined,
             parts_for: None,
             provenance,
         }

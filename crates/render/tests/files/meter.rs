@@ -12,8 +12,8 @@ use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::png::{Behind, read_metered as read_png};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::{
-    CellShape, GridPlace, MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff, netcdf, npy,
-    shapes, stl, vtu, write_file_metered,
+    CellShape, GridPlace, JoinedCells, MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff,
+    netcdf, npy, shapes, stl, vtu, write_file_metered,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
@@ -49,16 +49,16 @@ fn mesh() -> (Mesh, Vec<f64>) {
 }
 
 /// Boundary and parts of a mesh, for its data.
-struct Details(MeshBoundary, Vec<u32>, Provenance);
+struct Details(MeshBoundary, Vec<u32>, JoinedCells, Provenance);
 
 impl Details {
     fn of(mesh: &Mesh) -> Self {
         let (boundary, parts) = (MeshBoundary::from_mesh(&mesh.extract()), mesh.extract().part_numbers());
-        Self(boundary, parts, Provenance::default())
+        Self(boundary, parts, JoinedCells::default(), Provenance::default())
     }
 
     fn data<'a>(&'a self, targets: &'a [f64]) -> MeshData<'a> {
-        let Self(boundary, parts, provenance) = self;
+        let Self(boundary, parts, joined, provenance) = self;
         MeshData {
             target_diameter: targets,
             quantities: &[],
@@ -66,6 +66,7 @@ impl Details {
             boundary,
             parts,
             cells: CellShape::Triangles,
+            joined,
             parts_for: None,
             provenance,
         }

@@ -12,8 +12,8 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::{
-    CellShape, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom, gr3, mike,
-    selafin, ugrid, ww3,
+    CellShape, JoinedCells, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom,
+    gr3, mike, selafin, ugrid, ww3,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Extract, Limits, Mesh};
@@ -69,6 +69,7 @@ struct Case {
     quantities: Vec<NodeValues>,
     targets: Vec<f64>,
     parts: Vec<u32>,
+    joined: JoinedCells,
     provenance: Provenance,
 }
 
@@ -92,11 +93,12 @@ impl Case {
         let provenance = Provenance::new(MeshSource::Document("A sea"), mesh.fingerprint(), "x, y");
         let targets = vec![0.5; extract.nodes().len()];
         let parts = extract.part_numbers();
-        Self { extract, boundary, quantities: vec![other, depth], targets, parts, provenance }
+        let joined = JoinedCells::default();
+        Self { extract, boundary, quantities: vec![other, depth], targets, parts, joined, provenance }
     }
 
     fn data(&self) -> MeshData<'_> {
-        let Self { boundary, quantities, targets, parts, provenance, .. } = self;
+        let Self { boundary, quantities, targets, parts, joined, provenance, .. } = self;
         MeshData {
             target_diameter: targets,
             quantities,
@@ -104,6 +106,7 @@ impl Case {
             boundary,
             parts,
             cells: CellShape::Triangles,
+            joined,
             parts_for: None,
             provenance,
         }

@@ -210,11 +210,11 @@ impl FileDialog {
 /// none.
 fn format_of(request: FileRequest, name: &str) -> Option<&'static str> {
     let ending = Path::new(name).extension()?.to_string_lossy().to_ascii_lowercase();
-    let own = || (request.formats)().into_iter().map(|(ending, _)| ending).find(|own| *own == ending);
     if request == &EXPORT_MESH {
+        // A format of meshes has more than one ending.
         return ExportFormat::from_ending(&ending).map(ExportFormat::ending);
     }
-    own()
+    (request.formats)().into_iter().map(|(own, _)| own).find(|own| *own == ending)
 }
 
 /// Returns the common beginning of the names of all rows, in the capitals of the first one. If there is only

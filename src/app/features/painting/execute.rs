@@ -8,7 +8,7 @@ use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_kit::kit::command::{BrushCommand, Command, LayerCommand};
 use meshbrush_kit::kit::notices::Offer;
 use meshbrush_kit::kit::readout::{Quantity, value_at};
-use meshbrush_kit::kit::tools::{BrushMode, PaintKind};
+use meshbrush_kit::kit::tools::{BrushMode, MOST_PRESETS, PaintKind};
 use meshbrush_kit::kit::{Ctx, Feature, Row};
 
 impl Feature for Painting {
@@ -162,7 +162,8 @@ fn use_preset(number: usize, ctx: &mut Ctx<'_>) {
 
 fn keep_preset(ctx: &mut Ctx<'_>) {
     if !ctx.tools.keep_preset() {
-        ctx.session.tell("The brush was not kept: there are 24 presets. Remove one first.".into());
+        let sentence = format!("The brush was not kept: there are {MOST_PRESETS} presets. Remove one first.");
+        ctx.session.tell(sentence);
     }
 }
 

@@ -20,7 +20,7 @@ pub static BRUSH_OPTIONS: [StripItem; 13] = [
     StripItem::new(136.0, 2, amount_row).stretching(),
     StripItem::new(128.0, 4, hardness_row).stretching(),
     StripItem::new(144.0, 5, painted_row).stretching(),
-    StripItem::new(112.0, 1, mirror_chip).only(is_mirrored),
+    StripItem::new(112.0, 1, mirror_chip).only(|state| state.stroke_mirror().is_some()),
     StripItem::rare(preset_row),
     StripItem::rare(preset_rows),
     StripItem::rare(smoothing_row),
@@ -33,7 +33,7 @@ pub static ERASER_OPTIONS: [StripItem; 9] = [
     StripItem::new(136.0, 0, radius_row).stretching(),
     StripItem::new(136.0, 1, amount_row).stretching(),
     StripItem::new(128.0, 2, hardness_row).stretching(),
-    StripItem::new(112.0, 0, mirror_chip).only(is_mirrored),
+    StripItem::new(112.0, 0, mirror_chip).only(|state| state.stroke_mirror().is_some()),
     StripItem::rare(preset_row),
     StripItem::rare(preset_rows),
     StripItem::rare(smoothing_row),
@@ -167,10 +167,6 @@ fn painted(state: &FrameState<'_>) -> String {
     let level = state.session.follower().field().level_of_diameter(diameter, state.place());
     let level = level.map_or("–".into(), |level| level.to_string());
     format!("{} · {level}", format::length(diameter, state.unit()))
-}
-
-fn is_mirrored(state: &FrameState<'_>) -> bool {
-    state.tools.mirrored != [false; 2]
 }
 
 /// Says that strokes are repeated, and stops it with a click.

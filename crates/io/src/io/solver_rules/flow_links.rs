@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{BrokenPlace, WrittenMesh};
-use meshbrush_core::cells::{CellLink, CellNodes, LARGEST_COSINE, LEAST_SHARE};
+use meshbrush_core::cells::{CellLink, LARGEST_COSINE, LEAST_SHARE};
 use meshbrush_mesh::text::{digits, fixed};
 
 /// Finds links that the solver removes, so that no water crosses them.
@@ -63,10 +63,9 @@ fn find(
     is_broken: fn(&CellLink) -> bool,
     sentence: impl Fn(&CellLink) -> String,
 ) -> Vec<BrokenPlace> {
-    let nodes = CellNodes { nodes: &mesh.nodes, triangles: &mesh.triangles, unit: mesh.unit };
     let found = |link: &CellLink| BrokenPlace {
         place: link.ends.map(|node| mesh.nodes[node]).iter().sum::<DVec2>() / 2.0,
         sentence: sentence(link),
     };
-    mesh.cells().links(nodes).iter().filter(|link| is_broken(link)).map(found).collect()
+    mesh.links().iter().filter(|link| is_broken(link)).map(found).collect()
 }

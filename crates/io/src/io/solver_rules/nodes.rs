@@ -1,7 +1,6 @@
 //! Rules on nodes and the triangles at them.
 
 use super::{BrokenPlace, WrittenMesh};
-use meshbrush_core::cells::CellNodes;
 use meshbrush_mesh::text::{Number, digits};
 
 /// The cells that may meet in an inner node, for SWAN.
@@ -83,8 +82,7 @@ pub(super) fn dry_nodes(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
 /// 0, if there are depths.
 pub(super) fn cells_without_thickness(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
     let Some(depths) = &mesh.depths else { return Vec::new() };
-    let nodes = CellNodes { nodes: &mesh.nodes, triangles: &mesh.triangles, unit: mesh.unit };
-    let cells = mesh.cells();
+    let (nodes, cells) = (mesh.cell_nodes(), mesh.cells());
     let centers = cells.centers(nodes);
     let top = |node: usize| mesh.heights.as_ref().map_or(0.0, |heights| heights[node]);
     let thickness = cells.at_centers(nodes, &centers, |node| top(node) + depths[node]);

@@ -165,7 +165,7 @@ fn modflow_divides_by_the_length_of_connections_and_takes_oblique_ones_for_strai
     // The pair of a square shares its centre; as a rule MODFLOW gets one square.
     let mut pair = two_triangles(Vec::new());
     near(&places(&pair, "connection_of_no_length"), &[[1.0, 1.0]]);
-    pair.joins_cells = true;
+    pair.join_cells();
     near(&places(&pair, "connection_of_no_length"), &[]);
     let kite = |x: f64, height: f64| {
         let nodes = [[0.0, 0.0], [x, -height], [2.0, 0.0], [x, height]];

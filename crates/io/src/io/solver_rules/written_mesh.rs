@@ -1,11 +1,14 @@
 //! A mesh as a file of a solver has it.
 
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
 use glam::DVec2;
 
 use super::Solver;
 use crate::io::boundary_strings::{BoundaryString, BoundaryStrings, LAND, StringKind};
-use crate::io::{CellShape, MeshData};
-use meshbrush_core::cells::{CellNodes, MeshCells};
+use crate::io::{CellShape, MeshData, joined_cells};
+use meshbrush_core::cells::{CellLink, CellNodes, MeshCells};
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -30,8 +33,6 @@ pub struct WrittenMesh {
     pub triangles: Vec<[usize; 3]>,
     /// The unit of coordinates.
     pub unit: LengthUnit,
-    /// Whether pairs of triangles are quadrilaterals in the file.
-    pub joins_cells: bool,
     /// The depth at each node, positive downwards, if the file has depths.
     pub depths: Option<Vec<f64>>,
     /// The height of the surface at each node, if the file has one.
@@ -44,6 +45,10 @@ pub struct WrittenMesh {
     pub lost_open: Vec<(usize, String)>,
     boundary: Vec<[usize; 2]>,
     on_boundary: Vec<bool>,
+    /// The cells of the file; `None` where they are the triangles.
+    joined: Option<MeshCells>,
+    /// The links between the cells, once a rule needs them.
+    links: OnceLock<Vec<CellLink>>,
 }
 
 impl WrittenMesh {
@@ -81,11 +86,12 @@ impl WrittenMesh {
         mesh.depths = data.depths().map(<[f64]>::to_vec);
         mesh.heights = data.heights.map(<[f64]>::to_vec);
         mesh.unit = data.provenance.unit();
-        mesh.joins_cells = match data.cells {
+        let joins = match data.cells {
             CellShape::OfFormat => solver.wants_squares(),
             CellShape::Triangles => false,
             CellShape::Squares => true,
         };
+        mesh.joined = joins.then(|| joined_cells(extract, data).clone());
         if let (Some(strings), Solver::Fvcom | Solver::Mike | Solver::Telemac) = (&strings, solver) {
             let codes = strings.marked_codes(extract);
             mesh.is_open = codes.iter().map(|&code| code > LAND).collect();
@@ -107,9 +113,28 @@ impl WrittenMesh {
     }
 
     /// Returns the cells of the file.
-    pub(super) fn cells(&self) -> MeshCells {
-        let mesh = CellNodes { nodes: &self.nodes, triangles: &self.triangles, unit: self.unit };
-        if self.joins_cells { MeshCells::joined(mesh) } else { MeshCells::triangles(mesh) }
+    pub(super) fn cells(&self) -> Cow<'_, MeshCells> {
+        match &self.joined {
+            Some(cells) => Cow::Borrowed(cells),
+            None => Cow::Owned(MeshCells::triangles(self.cell_nodes())),
+        }
+    }
+
+    /// Returns the links between these cells.
+    pub(super) fn links(&self) -> &[CellLink] {
+        self.links.get_or_init(|| self.cells().links(self.cell_nodes()))
+    }
+
+    /// Returns nodes and triangles, as cells are made of them.
+    pub(super) fn cell_nodes(&self) -> CellNodes<'_> {
+        CellNodes { nodes: &self.nodes, triangles: &self.triangles, unit: self.unit }
+    }
+
+    /// Joins pairs of triangles, as a file with squares has them.
+    #[cfg(test)]
+    pub(super) fn join_cells(&mut self) {
+        self.joined = Some(MeshCells::joined(self.cell_nodes()));
+        self.links = OnceLock::new();
     }
 
     /// Returns whether a node is on the boundary.

@@ -20,7 +20,7 @@ pub use kept::KeptBrush;
 pub use paint::{BrushMode, PaintKind};
 pub use pan::{PAN, move_view};
 pub use pen::{Pen, PenResponse};
-pub use presets::{BrushPreset, KeptPreset, kept_pen, pen_of_kept};
+pub use presets::{BrushPreset, KeptPreset, MOST_PRESETS, kept_pen, pen_of_kept};
 pub use settings::{AnySettings, ToolSettings, first_settings};
 
 use crate::kit::{FrameState, Tool};

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 use meshbrush_core::domain::{BoundaryTreatment, Domain, MeshBoundary};
-use meshbrush_io::io::{CellShape, MeshData, gr3, mike, sms, ugrid};
+use meshbrush_io::io::{CellShape, JoinedCells, MeshData, gr3, mike, sms, ugrid};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::LengthUnit;
@@ -20,7 +20,9 @@ fn with_squares(
     write: impl FnOnce(&mut Vec<u8>, &Extract, &MeshData) -> std::io::Result<()>,
 ) -> Vec<u8> {
     let mut file = Vec::new();
-    write(&mut file, &case.extract, &MeshData { cells: CellShape::Squares, ..case.data() }).unwrap();
+    // Each file joins on its own.
+    let joined = &JoinedCells::default();
+    write(&mut file, &case.extract, &MeshData { cells: CellShape::Squares, joined, ..case.data() }).unwrap();
     file
 }
 
@@ -93,7 +95,8 @@ fn area(nodes: &[DVec2], cell: &[usize]) -> f64 {
     0.5 * edges_of(cell).map(|[a, b]| nodes[a].perp_dot(nodes[b])).sum::<f64>()
 }
 
-/// Checks that cells are convex and anticlockwise, cover what the triangles cover, and have the same boundary.
+/// Checks that cells are convex and anticlockwise, cover what the triangles cover, and have the same
+/// boundary.
 fn check_cells(case: &Case, cells: &[Vec<usize>]) {
     let expected = case.expected();
     let nodes = &expected.nodes;
