@@ -210,6 +210,17 @@ class Document:
         self._forget_mesh()
         return change
 
+    def repair(self, solver: str, *, progress: Progress = None, threads: int | None = None) -> tuple[int, int]:
+        """Adds layers that have triangles bisected once more where the mesh breaks a rule of a solver, as one edit.
+
+        Returns how many triangles are bisected, and how many places are left, where smaller triangles do not help;
+        `Mesh.check` lists these. `undo` takes the layers away.
+        """
+        with watching(progress, threads) as watch:
+            bisected, left = self._core.repair(solver, watch)
+        self._forget_mesh()
+        return bisected, left
+
     def why(self, point: tuple[float, float] | npt.ArrayLike) -> Why:
         """Says why the triangle at a point is in the mesh."""
         return self.mesh().why(point)

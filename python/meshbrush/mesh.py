@@ -168,6 +168,23 @@ class Mesh:
         """Returns how many rules the mesh breaks: 0, unless the program has a mistake."""
         return self._core.violations()
 
+    def check(
+        self,
+        solver: str,
+        *,
+        crs: str | None = None,
+        cells: str | None = None,
+        values: Mapping[str, npt.ArrayLike] | None = None,
+    ) -> dict[str, Any]:
+        """Says where the mesh, as a file of a solver has it, breaks the rules of that solver.
+
+        `solver` is adcirc, schism, swan, telemac, fvcom, ww3, delft3dfm, mike or modflow. The answer is that of `meshbrush
+        check --json`: `violations` and `notes` are lists with `rule`, `place` in the coordinates of the file, `source` and
+        `sentence`. `crs`, `cells` ("triangles" or "squares") and the `depth` of `values` are as for `write`.
+        """
+        answer: dict[str, Any] = json.loads(self._core.check(solver, crs, cells, _named(values)))
+        return answer
+
     def nodes_in(self, crs: str) -> npt.NDArray[np.float64]:
         """Returns the nodes of a mesh in the plane of a projection in other coordinates: "lonlat" or "EPSG:…"."""
         return self._core.nodes_in(crs)
@@ -226,9 +243,8 @@ class Mesh:
         space = _space(view, azimuth, altitude, exaggeration)
         output = _look(as_path(path) or path, size, edges, colormap, light) | space
         output.update(binary=bool(binary), flat=bool(flat), quantities=list(quantities or []))
-        named = [(_valid(name), np.ascontiguousarray(v, dtype=np.float64)) for name, v in (values or {}).items()]
         with watching(progress) as watch:
-            files, note = self._core.write(output, format, crs, named, watch)
+            files, note = self._core.write(output, format, crs, _named(values), watch)
         if note is not None:
             warnings.warn(note, MeshbrushWarning, stacklevel=2)
         return [str(file) for file in files]
@@ -313,6 +329,10 @@ def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if array.ndim != 2:
         raise MeshError(f"Points have the shape (p, 2), and this array has {array.ndim} dimensions.")
     return array
+
+
+def _named(values: Mapping[str, npt.ArrayLike] | None) -> list[tuple[str, npt.NDArray[np.float64]]]:
+    return [(_valid(name), np.ascontiguousarray(v, dtype=np.float64)) for name, v in (values or {}).items()]
 
 
 def _valid(name: str) -> str:

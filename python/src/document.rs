@@ -289,7 +289,8 @@ fn built_in_place(state: &Mutex<State>, follower: &core::Follower) -> Option<(Bu
         .then(|| (follower.built(), origin_of(&state, *follower.mesh().lattice())))
 }
 
-fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
+/// Returns what the mesh of a document on a lattice is made from.
+pub fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
     let settings = state.document.settings();
     let default = settings.derived_cleaning();
     // Of a fitted mesh, the settings have what was said, and an undo takes it back.
@@ -355,7 +356,16 @@ impl ToMake {
     }
 }
 
-fn built(spec: MeshSpec, paint: &PaintLayers, watch: &Watch) -> Result<(BuiltMesh, Duration, usize), String> {
+/// Makes a mesh from scratch. Returns the time of refinement and the triangles that a cap left too coarse,
+/// too.
+///
+/// # Errors
+/// Fails when there is no such mesh, and when the work was cancelled.
+pub fn built(
+    spec: MeshSpec,
+    paint: &PaintLayers,
+    watch: &Watch,
+) -> Result<(BuiltMesh, Duration, usize), String> {
     let mut builder = MeshBuilder::new(spec);
     let mut refinement = Duration::ZERO;
     loop {

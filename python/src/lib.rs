@@ -13,6 +13,7 @@ mod layers;
 mod locate;
 mod mesh;
 mod path;
+mod rules;
 mod values;
 mod work;
 

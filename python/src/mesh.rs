@@ -5,10 +5,11 @@ use std::sync::{Arc, OnceLock};
 
 use meshbrush_cli::cli::build::FinishedMesh;
 use meshbrush_cli::cli::details::{DetailUses, MeshDetails, provenance_from};
+use meshbrush_cli::cli::exported_mesh::ExportedMesh;
 use meshbrush_cli::cli::failure::Failure;
 use meshbrush_cli::cli::output::Output;
 use meshbrush_cli::cli::output_coordinates::OutputCoordinates;
-use meshbrush_cli::cli::requested_files::{ExportedMesh, RequestedFiles};
+use meshbrush_cli::cli::requested_files::RequestedFiles;
 use meshbrush_cli::cli::summary::Summary;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::surface::CurvePoint;
@@ -76,7 +77,7 @@ impl Shared {
         }
     }
 
-    fn counts(&self) -> [usize; 2] {
+    pub fn counts(&self) -> [usize; 2] {
         self.with_extract(|extract| [extract.nodes().len(), extract.triangles().len()])
     }
 
@@ -152,7 +153,7 @@ fn computed<T: Send + 'static>(
 impl Mesh {
     /// The numbers of nodes and triangles.
     #[getter]
-    fn counts(&self) -> [usize; 2] {
+    pub fn counts(&self) -> [usize; 2] {
         self.0.counts()
     }
 
@@ -389,7 +390,7 @@ fn look_of(output: &Bound<'_, PyDict>) -> PyResult<RequestedFiles> {
 }
 
 /// Checks values at the nodes: their number and their names.
-fn values_at_nodes(
+pub fn values_at_nodes(
     values: Vec<(String, PyReadonlyArray1<'_, f64>)>,
     nodes: usize,
 ) -> PyResult<Vec<NodeValues>> {

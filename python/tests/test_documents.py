@@ -744,3 +744,19 @@ def test_a_sea_beside_land_is_saved(west: float, projection: str | None, layer: 
         document.save(tmp_path / name)
         again = mb.open(tmp_path / name).mesh()
         assert (again.fingerprint, list(again.markers)) == (mesh.fingerprint, list(mesh.markers)), name
+
+
+def test_rules_of_solvers_are_checked_and_repaired() -> None:
+    document = mb.Document(mb.Domain.rectangle(0, 0, 40_000, 40_000), spacing=10_000)
+    answer = document.mesh().check("fvcom", values={"depth": np.full(25, 50.0)})
+    assert [found["rule"] for found in answer["violations"]] == 2 * ["two_open_nodes_and_shore"]
+    before = document.mesh().fingerprint
+    assert document.repair("fvcom") == (2, 0)
+    mesh = document.mesh()
+    assert mesh.check("fvcom")["violations"] == []
+    assert [layer.name for layer in document.layers][-1] == "Repair for FVCOM 1"
+    assert mesh.fingerprint != before
+    document.undo()
+    assert document.mesh().fingerprint == before
+    with pytest.raises(mb.MeshError, match="is no solver whose rules are known"):
+        mesh.check("roms")

@@ -282,8 +282,9 @@ impl App {
             }
             let facts = FileFacts {
                 triangles: self.session.triangle_count(),
-                figures: format.and_then(|format| self.export_figures.of(&self.session, format)),
+                figures: format.and_then(|format| self.export_figures.of(&self.session, &self.view, format)),
                 settings: self.session.document().settings(),
+                coordinates: self.view.file_coordinates,
                 picture: self.view.picture,
                 reads: &reads,
             };

@@ -8,6 +8,7 @@ use eframe::{Storage, get_value, set_value};
 use crate::app::features::statistics::Statistics;
 use meshbrush_kit::kit::coordinates::CoordinateStyle;
 use meshbrush_kit::kit::dock::Dock;
+use meshbrush_kit::kit::file_coordinates::FileCoordinates;
 use meshbrush_kit::kit::picture_choices::{KeptPictures, PictureChoices};
 use meshbrush_kit::kit::presentation::Presentation;
 use meshbrush_kit::kit::project::ProjectFile;
@@ -29,6 +30,8 @@ const BRUSH_KEY: &str = "brush";
 const PEN_KEY: &str = "pen";
 /// Name under which it keeps the presets of brushes.
 const PRESETS_KEY: &str = "brush presets";
+/// Name under which it keeps the coordinates of exported meshes.
+const FILE_COORDINATES_KEY: &str = "coordinates of exported meshes";
 /// Name under which it keeps the choices for exported pictures.
 const PICTURES_KEY: &str = "exported pictures";
 /// Name under which it keeps the recent files.
@@ -113,6 +116,19 @@ pub fn load_coordinates(view: &mut View, storage: &dyn Storage) {
 /// Keeps the coordinates of places for the next run.
 pub fn store_coordinates(view: &View, storage: &mut dyn Storage) {
     set_value(storage, COORDINATES_KEY, &view.coordinates.name());
+}
+
+/// Takes the coordinates of exported meshes of the last run.
+pub fn load_file_coordinates(view: &mut View, storage: &dyn Storage) {
+    let word: Option<String> = get_value(storage, FILE_COORDINATES_KEY);
+    if let Some(coordinates) = word.as_deref().and_then(FileCoordinates::of_word) {
+        view.file_coordinates = coordinates;
+    }
+}
+
+/// Keeps them for the next run.
+pub fn store_file_coordinates(view: &View, storage: &mut dyn Storage) {
+    set_value(storage, FILE_COORDINATES_KEY, &view.file_coordinates.word());
 }
 
 /// Takes the choices for exported pictures of the last run.

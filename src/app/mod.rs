@@ -212,6 +212,7 @@ impl App {
             self.dialogs.load(storage);
             kept::load_tab(&mut self.view.dock, storage);
             kept::load_coordinates(&mut self.view, storage);
+            kept::load_file_coordinates(&mut self.view, storage);
             kept::load_pictures(&mut self.view, storage);
             kept::load_courant(&mut self.features, storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
@@ -296,6 +297,7 @@ impl eframe::App for App {
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
         kept::store_tab(&self.view.dock, storage);
         kept::store_coordinates(&self.view, storage);
+        kept::store_file_coordinates(&self.view, storage);
         kept::store_pictures(&self.view, storage);
         kept::store_courant(&self.features, storage);
         kept::store_presentation(self.view.presentation, storage);

@@ -93,7 +93,7 @@ fn a_mesh_that_keeps_the_rules_passes_and_one_that_breaks_them_fails_after_its_a
         text.err
     );
     assert!(
-        text.out.starts_with("FVCOM: 2 violations of 6 rules in 32 triangles, with x, y\n"),
+        text.out.starts_with("FVCOM: 2 violations of 7 rules in 32 triangles, with x, y\n"),
         "{}",
         text.out
     );
@@ -101,7 +101,7 @@ fn a_mesh_that_keeps_the_rules_passes_and_one_that_breaks_them_fails_after_its_a
     let text = folder.run(format!("check {SQUARE} --for schism").as_str());
     assert_eq!(
         (text.status, text.out.as_str()),
-        (0, "SCHISM: no violation of 6 rules in 32 triangles, with x, y\n")
+        (0, "SCHISM: no violation of 7 rules in 32 triangles, with x, y\n")
     );
 }
 
@@ -137,9 +137,69 @@ fn a_boundary_that_touches_itself_is_named_with_the_rules_that_wait_for_it() {
     let answer = ran.json();
     assert_eq!((ran.status, count(&answer, "boundaries_that_touch")), (1, 1));
     assert_eq!(answer["violations"][0]["place"], serde_json::json!([2.0, 2.0]));
-    let unchecked = serde_json::json!(["open_piece_without_edge", "two_open_nodes_and_shore"]);
+    let unchecked =
+        serde_json::json!(["open_piece_without_edge", "two_open_nodes_and_shore", "strip_along_frame"]);
     assert_eq!(answer["unchecked"], unchecked);
     let ran = folder.run("check --for roms");
     assert!(ran.status == 2 && ran.err.contains("“roms” is no solver whose rules are known"), "{}", ran.err);
     assert_eq!(folder.run("check").status, 2, "--for is needed");
+}
+
+/// Returns how many triangles in the files of FVCOM have two open nodes and a third one on the boundary, and
+/// how many have no node inside.
+fn refused(folder: &Folder, stem: &str) -> [usize; 2] {
+    let (triangles, boundary, open) = read_fvcom(folder, stem);
+    let sum = |node: &usize| usize::from(boundary.contains(node)) + usize::from(open.contains(node));
+    let is_refused = |corners: &&[usize; 3]| corners.iter().map(sum).sum::<usize>() > 4;
+    let is_shore = |corners: &&[usize; 3]| corners.iter().all(|node| boundary.contains(node));
+    [triangles.iter().filter(is_refused).count(), triangles.iter().filter(is_shore).count()]
+}
+
+#[test]
+fn smaller_triangles_mend_what_they_can_in_the_mesh_itself() {
+    let folder = Folder::new("check-repair");
+    folder.file("bay.geojson", BAY);
+    let recipe = "[domain]\nregion = \"bay.geojson\"\nbounds = [0, 0, 8, 6]\nopen = [\"frame\"]\nboundary_diameter = 1.5\n
+[mesh]\nspacing = 2\n\n[limits]\nh_min = 1.5\n\n[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"1.5\"\n\n";
+    folder.file("bay.toml", recipe);
+    for (solver, column) in [("fvcom", 0), ("telemac", 1)] {
+        assert_eq!(folder.run("mesh bay.toml -o before.dat").status, 0);
+        let before = refused(&folder, "before")[column];
+        let ran = folder.run(format!("mesh bay.toml --repair-for {solver} -o after.dat --json").as_str());
+        let mended = ran.json();
+        let left = mended["repaired"]["left"].as_u64().unwrap() as usize;
+        assert_eq!(refused(&folder, "after")[column], left, "{solver}: what is left is counted");
+        assert!(before > left && mended["repaired"]["bisected"].as_u64() > Some(0), "{before} {left}");
+        assert!(ran.err.contains("bisected once more"), "{}", ran.err);
+        // The smallest diameter has to be less, and the layers keep it elsewhere.
+        assert!(mended["repaired"]["h_min"].as_f64().unwrap() < 1.5);
+        let checked = check(&folder, "bay.toml --repair", solver).1;
+        assert_eq!(checked["hash"], mended["hash"]);
+
+        // The text for a recipe makes the same mesh, where nothing is repaired.
+        let text = folder.run(format!("check bay.toml --for {solver} --repair").as_str()).out;
+        let layers = &text[text.find("\n[limits]\n").unwrap()..];
+        let layers = layers.split("\nnot checked").next().unwrap();
+        let own = recipe.split("[limits]").next().unwrap();
+        let base = &recipe[recipe.find("[[layer]]").unwrap()..];
+        let (limits, repair) = layers.split_at(layers.find("[[layer]]").unwrap());
+        folder.file("mended.toml", format!("{own}{limits}{base}{repair}"));
+        let again = folder.run("mesh mended.toml --json").json();
+        assert_eq!((&again["hash"], again.get("repaired")), (&mended["hash"], None), "{layers}");
+    }
+}
+
+#[test]
+fn an_area_whose_rules_are_kept_is_not_repaired_and_the_vertex_rule_cannot_be() {
+    let folder = Folder::new("check-repair-none");
+    let [plain, repaired] = ["", " --repair-for adcirc"].map(|option| {
+        let domain = SQUARE.split(" --quantity").next().unwrap();
+        folder.run(format!("mesh {domain} --json{option}").as_str())
+    });
+    assert_eq!(plain.json()["hash"], repaired.json()["hash"]);
+    assert!(repaired.err.contains("For ADCIRC no triangle was bisected once more."), "{}", repaired.err);
+    let (_, answer) = check(&folder, &format!("{SQUARE} --repair"), "fvcom");
+    assert_eq!((&answer["repaired"]["left"], answer["violations"].as_array().unwrap().len()), (&0.into(), 0));
+    let ran = folder.run(format!("check {SQUARE} --rule vertex --for fvcom --repair").as_str());
+    assert!(ran.status == 2 && ran.err.contains("--repair: by the vertex rule"), "{}", ran.err);
 }

@@ -1,6 +1,7 @@
 //! What the files of an export will have in them, measured while the question for a file is open.
 
 use meshbrush_io::io::Meter;
+use meshbrush_kit::kit::file_coordinates::FileCoordinates;
 use meshbrush_kit::kit::jobs::{Jobs, Slot};
 use meshbrush_kit::kit::mesh_export::{ExportFigures, MeshExport};
 use meshbrush_kit::kit::session::Session;
@@ -11,8 +12,8 @@ use meshbrush_render::render::export::ExportFormat;
 /// size is estimated.
 const MOST_TRIANGLES: usize = 500_000;
 
-/// What figures depend on: the format, and the revisions of the document and of its mesh.
-type MeasuredState = (&'static str, u64, u64);
+/// What figures depend on: the format, the coordinates, and the revisions of the document and of its mesh.
+type MeasuredState = (&'static str, FileCoordinates, u64, u64);
 
 /// Measures files before they are written.
 #[derive(Default)]
@@ -24,7 +25,7 @@ impl ExportMeasurer {
     /// Measures the files of the mesh on the screen in a format, unless that was done, or there are too many
     /// triangles. Call it in every frame in which figures are shown.
     pub fn follow(&mut self, session: &Session, view: &View, format: ExportFormat, jobs: &Jobs) {
-        let key = measured_state(session, format);
+        let key = measured_state(session, view, format);
         self.slot.poll(jobs);
         if self.slot.has(&key) || session.triangle_count() > MOST_TRIANGLES {
             return;
@@ -36,12 +37,17 @@ impl ExportMeasurer {
     }
 
     /// Returns what was measured of the mesh on the screen in a format, or why it cannot be written.
-    pub fn of(&self, session: &Session, format: ExportFormat) -> Option<&Result<ExportFigures, String>> {
+    pub fn of(
+        &self,
+        session: &Session,
+        view: &View,
+        format: ExportFormat,
+    ) -> Option<&Result<ExportFigures, String>> {
         let (found, figures) = self.slot.last()?;
-        (*found == measured_state(session, format)).then_some(figures)
+        (*found == measured_state(session, view, format)).then_some(figures)
     }
 }
 
-fn measured_state(session: &Session, format: ExportFormat) -> MeasuredState {
-    (format.name(), session.document().revision(), session.follower().revision())
+fn measured_state(session: &Session, view: &View, format: ExportFormat) -> MeasuredState {
+    (format.name(), view.file_coordinates, session.document().revision(), session.follower().revision())
 }

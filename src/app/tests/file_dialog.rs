@@ -9,10 +9,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{
-    Window, button_event, choose, document, key, notice, paint, send, value_of, wait_for_notice, wait_until,
-    window, window_with,
+    Window, button_event, choose, document, key, notice, paint, send, set, value_of, wait_for_jobs,
+    wait_for_notice, wait_until, window, window_with,
 };
-use meshbrush_core::document::Example;
+use meshbrush_core::document::{Example, Setting};
 use meshbrush_io::io::project;
 use meshbrush_kit::kit::command::{Command, FileCommand, ShellCommand};
 use meshbrush_mesh::text::LengthUnit;
@@ -317,6 +317,48 @@ fn an_export_says_what_its_coordinates_are() {
     ] {
         send(&mut window, Command::from(FileCommand::OpenExample(example)));
         assert!(says(&mut window, sentence), "{}", example.name());
+    }
+}
+
+#[test]
+fn a_mesh_of_a_sea_is_written_in_degrees_or_in_the_plane() {
+    let folder = folder("plane");
+    let mut window = window();
+    send(&mut window, Command::from(FileCommand::OpenExample(Example::CelticSea)));
+    wait_for_jobs(&mut window);
+    set(&mut window, Setting::SmallestDiameter(15_000.0));
+    wait_until(&mut window, |window| window.state().session().derived().is_some());
+    let degrees = "Coordinates are longitudes and latitudes in degrees.";
+    let metres = "Coordinates are metres in the plane of the document.";
+    // The third line has the first node: its number and place.
+    let first_x = |file: &str| -> f64 {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        text.lines().nth(2).unwrap().split_whitespace().nth(1).unwrap().parse().unwrap()
+    };
+    for (file, choice, sentence) in [
+        ("sea.gr3", None, degrees),
+        ("sea.disv", None, metres),
+        ("plane.gr3", Some("Plane of the document, in m"), metres),
+        ("lonlat.gr3", Some("Longitude and latitude"), degrees),
+    ] {
+        key(&mut window, Modifiers::COMMAND, Key::E);
+        key(&mut window, Modifiers::COMMAND, Key::A);
+        type_text(&mut window, &format!("{}/{file}", folder.display()));
+        if let Some(choice) = choice {
+            window.get_by_role_and_label(Role::ComboBox, "Coordinates").click();
+            window.run();
+            window.get_by_label(choice).click();
+            window.run();
+        }
+        assert!(window.query_by_label_contains(sentence).is_some(), "{file}");
+        if file.ends_with("disv") {
+            key(&mut window, Modifiers::NONE, Key::Escape);
+            continue; // MODFLOW takes no cell of depth 0
+        }
+        key(&mut window, Modifiers::NONE, Key::Enter);
+        wait_for_notice(&mut window);
+        send(&mut window, Command::from(ShellCommand::Escape));
+        assert_eq!(first_x(file).abs() > 180.0, sentence == metres, "{file}: {}", first_x(file));
     }
 }
 

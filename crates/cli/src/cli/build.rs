@@ -257,7 +257,7 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
     let scale = read.scale;
     let origin = read.origin();
     let mut builder = MeshBuilder::new(origin.spec.clone()).scaled(scale);
-    let refinement = run(&mut builder, &origin.paint, terminal);
+    let refinement = refine(&mut builder, &origin.paint, terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
@@ -279,7 +279,14 @@ impl ToMesh {
 }
 
 /// Builds in slices. Returns the time spent on refinement.
-fn run(builder: &mut MeshBuilder, paint: &PaintLayers, terminal: &mut Terminal) -> Result<Duration, Failure> {
+///
+/// # Errors
+/// Fails when the target is impossible somewhere, or a limit is reached.
+pub fn refine(
+    builder: &mut MeshBuilder,
+    paint: &PaintLayers,
+    terminal: &mut Terminal,
+) -> Result<Duration, Failure> {
     let start = Instant::now();
     let mut refinement = Duration::ZERO;
     loop {

@@ -6,7 +6,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::args::CheckArguments;
-use super::build::{FinishedMesh, build};
+use super::build::FinishedMesh;
 use super::depths::LeastDepth;
 use super::details::{DetailUses, MeshDetails};
 use super::exported_mesh::ExportedMesh;
@@ -14,11 +14,12 @@ use super::failure::Failure;
 use super::input::Input;
 use super::mesh::note_capped;
 use super::quantities::typed_quantities;
+use super::repair::{RepairSummary, build_for};
 use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
 };
-use meshbrush_io::io::{DEPTH, MeshData, NodeValues, SURFACE};
+use meshbrush_io::io::{CellShape, DEPTH, MeshData, NodeValues, SURFACE};
 use meshbrush_mesh::text::{Grouped, Number};
 
 /// How many places of a rule are printed one by one; JSON has all.
@@ -37,7 +38,8 @@ pub fn run(
     let input = Input::new(&typed.input)?.scaled(typed.scale.unwrap_or(1.0));
     let quantities = typed_quantities(&typed.quantity)?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let finished = build(&input, terminal)?;
+    let repair_for = typed.repair.then_some((typed.solver, "--repair"));
+    let (finished, repaired) = build_for(&input, repair_for, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
@@ -66,13 +68,10 @@ pub fn run(
         coordinates,
         target_diameter: &[],
     };
-    let placed = exported.in_coordinates()?;
     let cells = typed.cells.unwrap_or_default();
-    let data = MeshData { cells, ..exported.data(&values, false) };
-    let written = WrittenMesh::of(placed.as_ref().unwrap_or(&extract), &data, typed.solver);
-    let broken = terminal.while_working("checking the rules", || broken_rules(&written, typed.solver));
-    let meaning = provenance.entries().find_map(|(key, text)| (key == "coordinates").then_some(text));
-    let answer = CheckAnswer::new(&finished, &written, typed.solver, meaning.unwrap_or_default(), &broken);
+    let file = FileToCheck { exported, values: &values, cells, solver: typed.solver };
+    let (written, broken) = terminal.while_working("checking the rules", || file.broken())?;
+    let answer = CheckAnswer { repaired, ..file.answer(&written, &broken) };
     let text = match typed.json {
         true => serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))? + "\n",
         false => answer.for_people(typed.solver, &broken),
@@ -85,6 +84,47 @@ pub fn run(
             typed.solver.name(),
             counted(count, "place")
         ))),
+    }
+}
+
+/// A mesh that is checked as a file of a solver has it.
+pub struct FileToCheck<'a> {
+    /// The mesh.
+    pub exported: ExportedMesh<'a>,
+    /// Values at its nodes.
+    pub values: &'a [NodeValues],
+    /// The cells of the file.
+    pub cells: CellShape,
+    /// The solver.
+    pub solver: Solver,
+}
+
+impl<'a> FileToCheck<'a> {
+    /// Returns the text of `meshbrush check --json`.
+    ///
+    /// # Errors
+    /// Fails where the domain is not in the plane of a projection, and other coordinates are asked for.
+    pub fn as_json(&self) -> Result<String, Failure> {
+        let (written, broken) = self.broken()?;
+        serde_json::to_string(&self.answer(&written, &broken)).map_err(|error| Failure::Print(error.into()))
+    }
+
+    /// Returns the mesh as the file has it, and the rules that it breaks.
+    fn broken(&self) -> Result<(WrittenMesh, Vec<BrokenRule>), Failure> {
+        let placed = self.exported.in_coordinates()?;
+        let data = MeshData { cells: self.cells, ..self.exported.data(self.values, false) };
+        let written = WrittenMesh::of(placed.as_ref().unwrap_or(self.exported.extract), &data, self.solver);
+        let broken = broken_rules(&written, self.solver);
+        Ok((written, broken))
+    }
+
+    fn answer<'b>(&self, written: &WrittenMesh, broken: &'b [BrokenRule]) -> CheckAnswer<'b>
+    where
+        'a: 'b,
+    {
+        let ExportedMesh { finished, provenance, .. } = self.exported;
+        let meaning = provenance.entries().find_map(|(key, text)| (key == "coordinates").then_some(text));
+        CheckAnswer::new(finished, written, self.solver, meaning.unwrap_or_default(), broken)
     }
 }
 
@@ -105,6 +145,9 @@ struct CheckAnswer<'a> {
     violations: Vec<PlaceAnswer<'a>>,
     /// The places that a person should know of.
     notes: Vec<PlaceAnswer<'a>>,
+    /// What was done so that fewer rules are broken, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    repaired: Option<RepairSummary>,
     /// Rules that could not be checked, as the boundary touches itself.
     unchecked: Vec<&'static str>,
 }
@@ -166,6 +209,7 @@ impl<'a> CheckAnswer<'a> {
             rules: rules_of(solver).map(|rule| of_rule(rule.name, rule.source)).collect(),
             violations: PlaceAnswer::all(broken, Severity::Violation),
             notes: PlaceAnswer::all(broken, Severity::Note),
+            repaired: None,
             unchecked: needs.map(|rule| rule.name).collect(),
         }
     }
@@ -181,13 +225,23 @@ impl<'a> CheckAnswer<'a> {
         for BrokenRule { rule, found } in broken {
             let kind = if rule.severity == Severity::Note { "note: " } else { "" };
             let _ = write!(text, "\n{kind}{} ({}): {}\n", rule.name, rule.source, Grouped(found.len()));
-            for BrokenPlace { place, sentence } in found.iter().take(SHOWN_PLACES) {
+            for BrokenPlace { place, sentence, .. } in found.iter().take(SHOWN_PLACES) {
                 let _ = writeln!(text, "  x = {}, y = {}: {sentence}", Number(place.x), Number(place.y));
             }
             if let Some(more @ 1..) = found.len().checked_sub(SHOWN_PLACES) {
                 let _ = writeln!(text, "  {} more; --json has all", Grouped(more));
             }
             let _ = writeln!(text, "  {}", rule.remedy);
+        }
+        if let Some(repaired) = &self.repaired {
+            let _ = writeln!(text, "\n{}", repaired.for_people());
+            if !repaired.as_recipe().is_empty() {
+                let _ = writeln!(
+                    text,
+                    "In a recipe, these values in [limits] and these layers after the others ask for it:\n\n{}",
+                    repaired.as_recipe()
+                );
+            }
         }
         if !self.unchecked.is_empty() {
             let names = self.unchecked.join(", ");

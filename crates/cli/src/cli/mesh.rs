@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::args::MeshArguments;
-use super::build::{FinishedMesh, build};
+use super::build::FinishedMesh;
 use super::depths::LeastDepth;
 use super::details::{DetailUses, MeshDetails, StraitSummary, provenance};
 use super::failure::Failure;
@@ -11,6 +11,7 @@ use super::input::Input;
 use super::output::Output;
 use super::output_coordinates::OutputCoordinates;
 use super::partition;
+use super::repair::build_for;
 use super::requested_files::RequestedFiles;
 use super::sequence::{self, SequenceStart};
 use super::standard_output;
@@ -37,18 +38,17 @@ pub fn run(
 ) -> Result<(), Failure> {
     let input = Input::new(&typed.input)?.scaled(checked_scale(typed)?);
     let by_options = RequestedFiles::of_options(typed)?;
-    let outputs = &by_options.outputs;
-    check_stdout(typed, outputs)?;
-    note_without_effect(typed, &input, outputs, terminal);
+    check_stdout(typed, &by_options.outputs)?;
+    note_without_effect(typed, &input, &by_options.outputs, terminal);
     let files = all_files(typed, &input, by_options)?;
-    let finished = build(&input, terminal)?;
+    let (finished, repaired) = build_for(&input, typed.repair_for.zip(Some("--repair-for")), terminal)?;
     let extract = finished.extract();
-    let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
+    let writes = files.iter().any(|files| !files.outputs.is_empty());
+    let coordinates = coordinates_in_files(typed, &files, &finished);
     let violations = match typed.checks {
         true => Some(report_violations(&finished, &extract, finished.max_level(), terminal)?),
         false => None,
     };
-    let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
     let node_data = files.iter().any(RequestedFiles::wants_node_data);
     let mut depths = files.iter().filter_map(RequestedFiles::depth);
@@ -65,6 +65,8 @@ pub fn run(
     if !typed.json {
         terminal.say(&summary.for_people());
     }
+    repaired.iter().for_each(|repaired| terminal.note(&repaired.for_people()));
+    summary.repaired = repaired;
     note_least_depth(typed.least_depth, details.as_ref(), terminal);
     note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
     let origin = || provenance(&finished, line, &input, OutputCoordinates::Plane);
@@ -107,6 +109,19 @@ fn all_files(
     outputs.try_for_each(|output| output.check_places(&inputs))?;
     typed.curve.check(&inputs)?;
     Ok(files)
+}
+
+/// Returns the coordinates in files: those that are asked for, the plane where all formats need lengths, or
+/// else those of the domain's file.
+fn coordinates_in_files(
+    typed: &MeshArguments,
+    files: &[RequestedFiles],
+    finished: &FinishedMesh,
+) -> OutputCoordinates {
+    let mut outputs = files.iter().flat_map(|files| &files.outputs).peekable();
+    let need_lengths = outputs.peek().is_some() && outputs.all(Output::needs_lengths);
+    let usual = || if need_lengths { OutputCoordinates::Plane } else { finished.coordinates().into() };
+    typed.out_crs.unwrap_or_else(usual)
 }
 
 /// Returns what all sizes are multiplied by.

@@ -6,12 +6,12 @@
 
 mod args;
 pub mod build;
-mod check;
+pub mod check;
 mod command_line;
 mod depths;
 pub mod details;
 mod error_curve;
-mod exported_mesh;
+pub mod exported_mesh;
 pub mod failure;
 pub mod input;
 mod lengths;
@@ -30,6 +30,7 @@ mod points;
 pub mod quality;
 mod quantities;
 mod recipe;
+mod repair;
 mod replay;
 mod report;
 pub mod requested_files;

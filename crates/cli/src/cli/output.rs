@@ -128,6 +128,11 @@ impl Output {
         self.is_named
     }
 
+    /// Returns whether coordinates in its files have to be lengths.
+    pub fn needs_lengths(&self) -> bool {
+        self.format.needs_lengths()
+    }
+
     /// Returns whether files of its format can have these cells.
     pub fn can_have(&self, cells: CellShape) -> bool {
         cells != CellShape::Squares || self.format.holds_squares()

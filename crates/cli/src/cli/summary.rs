@@ -11,6 +11,7 @@ use super::details::{
 };
 use super::partition::PartitionSummary;
 use super::quality::QualitySummary;
+use super::repair::RepairSummary;
 use super::sequence::SequenceMesh;
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
@@ -80,6 +81,9 @@ pub struct Summary {
     /// The parts for a solver on several processors, if they are asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub partition: Option<PartitionSummary>,
+    /// What was done so that the mesh keeps the rules of a solver, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repaired: Option<RepairSummary>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -339,6 +343,7 @@ impl Summary {
             straits: details.and_then(|details| details.straits.clone()),
             sequence: None,
             partition: None,
+            repaired: None,
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
             capped: finished.capped,

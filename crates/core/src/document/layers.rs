@@ -59,6 +59,13 @@ pub enum NoPaintLayer {
     },
 }
 
+/// Returns the name, or with a number where a layer has that name.
+pub fn unused_name(layers: &[Layer], name: &str) -> String {
+    let is_used = |name: &str| layers.iter().any(|layer| layer.name == name);
+    let numbered = (2..).map(|n| format!("{name} {n}"));
+    std::iter::once(name.to_owned()).chain(numbered).find(|name| !is_used(name)).unwrap_or_default()
+}
+
 impl Settings {
     /// Returns a layer by its identifier.
     pub fn layer(&self, id: LayerId) -> Option<&Layer> {
@@ -118,13 +125,15 @@ impl Document {
     /// Returns an identifier for a new layer: no layer has it, also none that undo or redo brings back, and
     /// no pixels of a deleted layer are kept under it.
     pub fn unused_layer_id(&self) -> LayerId {
+        self.unused_layer_ids().next().expect("there are fewer layers than numbers")
+    }
+
+    /// Returns the identifiers of [`Self::unused_layer_id`], for several new layers.
+    pub fn unused_layer_ids(&self) -> impl Iterator<Item = LayerId> {
         let settings = self.history.all_settings().chain([&self.settings]);
         let layers = settings.flat_map(|settings| &settings.layers).map(|layer| layer.id);
         let used: HashSet<LayerId> = layers.chain(self.paint.iter().map(|(id, _)| id)).collect();
-        (0..=u32::MAX)
-            .map(LayerId)
-            .find(|id| !used.contains(id))
-            .expect("there are fewer layers than numbers")
+        (0..=u32::MAX).map(LayerId).filter(move |id| !used.contains(id))
     }
 
     /// Selects the layer that brush and eraser are used on. This is no edit.

@@ -42,7 +42,7 @@ pub use examples::{Example, ExampleData, ExampleMaking};
 pub use field_price::CountEstimate;
 pub use follower::{Follower, MeshChange};
 pub use history::History;
-pub use layers::{NoPaintLayer, check_layer_count};
+pub use layers::{NoPaintLayer, check_layer_count, unused_name};
 pub use outline::{OutlineError, extent};
 pub use pace::Pace;
 pub use path_plan::{KeepOut, PathCost, PathPlan};

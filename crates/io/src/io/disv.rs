@@ -25,6 +25,7 @@ use meshbrush_mesh::text::{LengthUnit, digits};
 pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "MODFLOW 6 (DISV): squares and triangles, with top and bottom at their centres",
     size: TypicalSize { bytes: 50.0, bytes_per_digit: 5.0 },
+    needs_lengths: true,
     squares: SquareCells::Usual,
     third: ThirdCoordinate::Height,
     ..FormatSpec::new("disv", &["disv"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))

@@ -32,6 +32,8 @@ pub struct FormatSpec {
     pub has_targets: bool,
     /// Whether a coastal solver finds its open boundary in the files.
     pub has_open_boundary: bool,
+    /// Whether coordinates have to be lengths: degrees are refused.
+    pub needs_lengths: bool,
     /// Whether its files can have quadrilaterals.
     pub squares: SquareCells,
     /// The name of the file in which its solver looks for the part of each cell, if it has one.
@@ -58,6 +60,7 @@ impl FormatSpec {
             size: TypicalSize { bytes: 50.0, bytes_per_digit: 5.0 },
             has_targets: false,
             has_open_boundary: false,
+            needs_lengths: false,
             squares: SquareCells::Impossible,
             parts_file: None,
             third: ThirdCoordinate::None,

@@ -33,6 +33,11 @@ impl MeshFormat {
         self.spec.has_targets
     }
 
+    /// Returns whether its coordinates have to be lengths: degrees are refused.
+    pub fn needs_lengths(self) -> bool {
+        self.spec.needs_lengths
+    }
+
     /// Returns whether its files can have quadrilaterals.
     pub fn holds_squares(self) -> bool {
         self.spec.squares != SquareCells::Impossible

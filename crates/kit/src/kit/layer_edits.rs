@@ -1,15 +1,8 @@
 //! Edits of the layers of the document.
 
 use super::session::Session;
-use meshbrush_core::document::Setting;
+use meshbrush_core::document::{Setting, unused_name};
 use meshbrush_core::layers::{Layer, LayerId, LayerKind};
-
-/// Returns the name, or with a number where a layer has that name.
-pub fn unused_name(layers: &[Layer], name: &str) -> String {
-    let is_used = |name: &str| layers.iter().any(|layer| layer.name == name);
-    let numbered = (2..).map(|n| format!("{name} {n}"));
-    std::iter::once(name.to_owned()).chain(numbered).find(|name| !is_used(name)).unwrap_or_default()
-}
 
 impl Session {
     /// Edits the layers. Further edits join the gesture.

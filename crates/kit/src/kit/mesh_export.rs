@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::file_coordinates::FileCoordinates;
 use super::session::Session;
 use super::view::{Space, View};
 use meshbrush_core::document::Settings;
@@ -14,8 +15,7 @@ use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::solver_rules::{BrokenRule, Severity, Solver, WrittenMesh, broken_rules};
 use meshbrush_io::io::{
-    CellShape, DEPTH, JoinedCells, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE,
-    ThirdCoordinate, joined_cells,
+    CellShape, DEPTH, JoinedCells, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, joined_cells,
 };
 use meshbrush_mesh::mesh::{Extract, Fingerprint, Mesh, MeshView};
 use meshbrush_render::render::export::ExportFormat;
@@ -33,6 +33,8 @@ pub struct MeshExport {
     paint: PaintLayers,
     surface: Option<Arc<SurfaceRule>>,
     look: Look,
+    /// The coordinates of a document in the plane of a projection.
+    coordinates: FileCoordinates,
     /// The view in space that a picture shows.
     space: Option<Space>,
 }
@@ -87,6 +89,7 @@ impl MeshExport {
             paint: document.paint().clone(),
             surface: follower.surface().cloned(),
             look: view.picture_of(document.settings()),
+            coordinates: view.file_coordinates,
             space: is_picture.then_some(view.space).filter(|space| space.is_on),
         }
     }
@@ -152,11 +155,16 @@ impl MeshExport {
         let mut broken = self.with_data(&extract, &values, meter, |placed, data| {
             Ok(broken_rules(&WrittenMesh::of(placed, data, solver), solver))
         })?;
-        if let Some(projection) = self.settings.domain.projection {
+        if let Some(projection) = self.settings.domain.projection.filter(|_| !self.is_in_plane()) {
             let places = broken.iter_mut().flat_map(|broken| &mut broken.found);
             places.for_each(|found| found.place = projection.plane_from_geographic(found.place));
         }
         Ok(broken)
+    }
+
+    /// Returns whether files of a document in the plane of a projection are in that plane.
+    fn is_in_plane(&self) -> bool {
+        self.coordinates.is_plane(self.format, self.surface.is_some())
     }
 
     /// Returns how many quadrilaterals the files have.
@@ -184,8 +192,6 @@ impl MeshExport {
         };
         let boundary = MeshBoundary::new(extract, &settings.domain, &settings.boundary_marks);
         let heights = values.iter().find(|values| values.name == SURFACE).map(|it| &*it.values);
-        // A model in space has lengths along all axes.
-        let is_model = self.format.third_coordinate() == ThirdCoordinate::Model && heights.is_some();
         let data = MeshData {
             target_diameter: &target_diameter,
             quantities: values,
@@ -195,9 +201,10 @@ impl MeshExport {
             cells: CellShape::OfFormat,
             joined: &JoinedCells::default(),
             parts_for: None,
-            provenance: &provenance_of(settings, self.mesh.fingerprint(), is_model),
+            provenance: &provenance_of(settings, self.mesh.fingerprint(), self.is_in_plane()),
         };
-        let nodes = settings.domain.nodes_in(&Coordinates::Geographic, extract).filter(|_| !is_model);
+        let nodes =
+            settings.domain.nodes_in(&Coordinates::Geographic, extract).filter(|_| !self.is_in_plane());
         let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
         use_data(placed.as_ref().unwrap_or(extract), &data)
     }
@@ -225,12 +232,12 @@ impl MeshExport {
     }
 }
 
-/// Returns the origin of a mesh, with its coordinates: those of the plane in models.
-fn provenance_of(settings: &Settings, fingerprint: Fingerprint, is_model: bool) -> Provenance {
+/// Returns the origin of a mesh, with its coordinates.
+fn provenance_of(settings: &Settings, fingerprint: Fingerprint, in_plane: bool) -> Provenance {
     let source = MeshSource::Document(&settings.name);
     let provenance = Provenance::new(source, fingerprint, "x, y").with_unit(settings.unit);
     match settings.domain.projection {
-        Some(plane) if is_model => provenance.in_plane(&plane),
+        Some(plane) if in_plane => provenance.in_plane(&plane),
         plane => provenance.in_coordinates(&Coordinates::Geographic, plane),
     }
 }

@@ -146,6 +146,11 @@ impl ExportFormat {
         }
     }
 
+    /// Returns whether its coordinates have to be lengths: degrees are refused.
+    pub fn needs_lengths(self) -> bool {
+        matches!(self, Self::Mesh(format) if format.needs_lengths())
+    }
+
     /// Returns whether its files can have quadrilaterals.
     pub fn holds_squares(self) -> bool {
         matches!(self, Self::Mesh(format) if format.holds_squares())

@@ -13,9 +13,9 @@ use super::{Contents, FileDialog, export_doubts};
 use crate::app::dialogs::pictures;
 use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
-use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_kit::kit::background::{ProgressRow, WorkId};
-use meshbrush_kit::kit::command::Command;
+use meshbrush_kit::kit::command::{Command, ViewCommand};
+use meshbrush_kit::kit::file_coordinates::FileCoordinates;
 use meshbrush_kit::kit::mesh_export::ExportFigures;
 use meshbrush_kit::kit::picture_choices::PictureChoices;
 use meshbrush_mesh::text::LengthUnit;
@@ -39,6 +39,8 @@ pub struct FileFacts<'a> {
     pub figures: Option<&'a Result<ExportFigures, String>>,
     /// The settings of the document.
     pub settings: &'a Settings,
+    /// The coordinates of exported meshes.
+    pub coordinates: FileCoordinates,
     /// How exported pictures look.
     pub picture: PictureChoices,
     /// Files that are being read.
@@ -100,6 +102,7 @@ impl FileDialog {
             ui.add_space(8.0);
             let entered = self.text_row(ui, &rows);
             self.format_row(ui);
+            self.coordinates_row(ui, facts, commands);
             self.figure_rows(ui, facts);
             if self.writes_picture() {
                 pictures::rows(ui, facts.picture, commands);
@@ -284,11 +287,24 @@ impl FileDialog {
         }
     }
 
+    /// The coordinates of a mesh in the plane of a projection.
+    fn coordinates_row(&self, ui: &mut Ui, facts: &FileFacts<'_>, commands: &mut Vec<Command>) {
+        let Some(format) = self.export_format().filter(|format| format.mesh().is_some()) else { return };
+        let is_model = FileCoordinates::Geographic.is_plane(format, has_heights(facts.settings));
+        if facts.settings.domain.projection.is_none() || is_model {
+            return;
+        }
+        let mut coordinates = facts.coordinates;
+        if dropdown_row(ui, "Coordinates", &mut coordinates, &FileCoordinates::ALL).changed() {
+            commands.push(Command::from(ViewCommand::FileCoordinates(coordinates)));
+        }
+    }
+
     /// What an export of the mesh writes, and what a person may miss in it.
     fn figure_rows(&self, ui: &mut Ui, facts: &FileFacts<'_>) {
         let Some(format) = self.export_format() else { return };
         let written = written(format, facts, &self.path());
-        let written = format!("{written}{}", coordinates_in(format, facts.settings));
+        let written = format!("{written}{}", coordinates_in(format, facts));
         let doubts = export_doubts::sentences(format, facts.settings, facts.figures);
         let [quiet, plain] = [tokens(ui).label, tokens(ui).text];
         let rows = [(written, quiet)].into_iter().chain(doubts.map(|doubt| (doubt, plain)));
@@ -355,14 +371,19 @@ fn cells_and_nodes(figures: &ExportFigures) -> String {
     }
 }
 
+/// Returns whether files of a document have the heights of a surface.
+fn has_heights(settings: &Settings) -> bool {
+    settings.surfaces().next().is_some()
+}
+
 /// Says what the coordinates in an export of a document are, in a sentence after a space; nothing where they
 /// have no unit, and about a picture.
-fn coordinates_in(format: ExportFormat, settings: &Settings) -> &'static str {
-    let is_model =
-        format.third_coordinate() == ThirdCoordinate::Model && settings.surfaces().next().is_some();
+fn coordinates_in(format: ExportFormat, facts: &FileFacts<'_>) -> &'static str {
+    let settings = facts.settings;
+    let is_plane = facts.coordinates.is_plane(format, has_heights(settings));
     match (settings.domain.projection.is_some(), settings.unit) {
         _ if matches!(format, ExportFormat::Svg | ExportFormat::Png) => "",
-        (true, _) if !is_model => " Coordinates are longitudes and latitudes in degrees.",
+        (true, _) if !is_plane => " Coordinates are longitudes and latitudes in degrees.",
         (true, _) => " Coordinates are metres in the plane of the document.",
         (false, LengthUnit::Degree) => " Coordinates are in degrees.",
         (false, LengthUnit::Metre) => " Coordinates are in metres.",

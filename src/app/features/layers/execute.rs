@@ -5,10 +5,9 @@ use super::{
     GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, grid, list, load,
     marks,
 };
-use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::document::{Setting, Settings, unused_name};
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayer};
 use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, ViewCommand};
-use meshbrush_kit::kit::layer_edits::unused_name;
 use meshbrush_kit::kit::tools::PaintKind;
 use meshbrush_kit::kit::{Ctx, Feature, Row};
 

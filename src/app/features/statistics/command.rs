@@ -14,6 +14,10 @@ pub enum StatisticsCommand {
     ChooseSolver(Solver),
     /// Checks the mesh by the rules of the solver.
     CheckRules,
+    /// Adds layers with which the mesh keeps the rules of the solver, as far as smaller triangles help.
+    Repair,
+    /// Gives up looking for these layers.
+    StopRepair,
 }
 
 impl CommandSet for StatisticsCommand {}

@@ -2,7 +2,7 @@
 
 use super::{
     Measured, Measuring, Statistics, StatisticsCommand, levels::LEVELS, panel::STATISTICS,
-    preflight::PREFLIGHT, preflight::Preflight, quality::QUALITY,
+    preflight::PREFLIGHT, preflight::Preflight, quality::QUALITY, repair::Repair,
 };
 use meshbrush_core::quality::QualityMeasure;
 use meshbrush_kit::kit::derivation::MeasuredMesh;
@@ -15,7 +15,12 @@ pub const COURANT: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 impl Default for Statistics {
     fn default() -> Self {
-        Self { figures: Slot::default(), courant: 1.0, preflight: Preflight::default() }
+        Self {
+            figures: Slot::default(),
+            courant: 1.0,
+            preflight: Preflight::default(),
+            repair: Repair::default(),
+        }
     }
 }
 
@@ -29,6 +34,8 @@ impl Feature for Statistics {
             StatisticsCommand::SetCourant(number) => self.set_courant(number),
             StatisticsCommand::ChooseSolver(solver) => self.preflight.solver = solver,
             StatisticsCommand::CheckRules => self.preflight.check(ctx.session, ctx.view, ctx.jobs),
+            StatisticsCommand::Repair => self.repair.begin(ctx.session, self.preflight.solver, ctx.jobs),
+            StatisticsCommand::StopRepair => self.repair.stop(ctx.jobs),
         }
     }
 
@@ -38,7 +45,8 @@ impl Feature for Statistics {
             self.figures.want(&MeasuredMesh::now(follower, derivation), ctx.jobs);
         }
         let checks = self.preflight.follow(ctx.session, ctx.jobs);
-        self.figures.take(ctx.jobs) || checks
+        let repairs = self.repair.follow(ctx.session, ctx.jobs);
+        self.figures.take(ctx.jobs) || checks || repairs
     }
 
     fn for_next_document(self) -> Self {

@@ -7,6 +7,7 @@ mod measuring;
 mod panel;
 mod preflight;
 mod quality;
+mod repair;
 #[cfg(test)]
 mod tests;
 
@@ -14,6 +15,7 @@ pub use command::StatisticsCommand;
 pub use measuring::NoTimeStep;
 use measuring::{Measured, Measuring};
 use preflight::Preflight;
+use repair::Repair;
 
 use meshbrush_kit::kit::derivation::MeasuredMesh;
 use meshbrush_kit::kit::jobs::Slot;
@@ -25,4 +27,6 @@ pub struct Statistics {
     courant: f64,
     /// The rules of a solver.
     preflight: Preflight,
+    /// Layers that ask for smaller triangles where a rule is broken.
+    repair: Repair,
 }

@@ -15,7 +15,7 @@ use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::View;
 use meshbrush_kit::kit::{FrameState, Panel, Tab, remark};
 use meshbrush_render::render::export::ExportFormat;
-use meshbrush_ui::widgets::{Section, ValueRow, dropdown_row, format};
+use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, dropdown_row, format};
 
 /// Places of a rule that are listed; the others are as many as the number beside the rule says.
 const SHOWN_PLACES: usize = 8;
@@ -101,7 +101,11 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             }
             Some(Ok(broken)) => {
                 rules_row(ui, preflight.solver, broken);
-                broken.iter().for_each(|broken| broken_rows(ui, broken, state, commands));
+                for broken in broken {
+                    // Several rules have a first place.
+                    ui.push_id(broken.rule.name, |ui| broken_rows(ui, broken, state, commands));
+                }
+                repair_row(ui, broken, commands, state);
             }
         }
     });
@@ -120,6 +124,29 @@ fn rules_row(ui: &mut Ui, solver: Solver, broken: &[BrokenRule]) {
     };
     ValueRow::new("Rules", &text).help(HELP).stands_out(violated > 0).show(ui);
 }
+
+/// The button that has the mesh mended, where smaller triangles help, and what came of that.
+fn repair_row(ui: &mut Ui, broken: &[BrokenRule], commands: &mut Vec<Command>, state: &FrameState<'_>) {
+    let repair = &state.feature::<Statistics>().repair;
+    if repair.is_running() {
+        remark(ui, "Looking for the triangles that are to be bisected …");
+        if ui.add(ActionButton::new("Cancel repair").vanishing()).clicked() {
+            commands.push(Command::from(StatisticsCommand::StopRepair));
+        }
+        return;
+    }
+    if let Some(outcome) = repair.outcome(state.session) {
+        remark(ui, outcome);
+        return;
+    }
+    let helps = broken.iter().flat_map(|broken| &broken.found).any(|found| !found.mended_in.is_empty());
+    if helps && ui.add(ActionButton::new("Repair").vanishing()).on_hover_text(REPAIR).clicked() {
+        commands.push(Command::from(StatisticsCommand::Repair));
+    }
+}
+
+const REPAIR: &str = "Adds layers that have the triangles bisected once more which break a rule, where that helps. The mesh is then \
+                      another one, in all files; Undo takes the layers away.";
 
 /// A rule that is broken, what helps, and links to places.
 fn broken_rows(ui: &mut Ui, broken: &BrokenRule, state: &FrameState<'_>, commands: &mut Vec<Command>) {

@@ -11,6 +11,7 @@ use super::picture::PictureArguments;
 use super::space::SpaceArguments;
 use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_io::io::CellShape;
+use meshbrush_io::io::solver_rules::Solver;
 
 /// `meshbrush mesh`.
 #[derive(Debug, Args)]
@@ -67,6 +68,15 @@ pub struct MeshArguments {
     /// are nodes of the mesh of half its sizes. --sequence keeps those of the outline, too.
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Output")]
     pub scale: Option<f64>,
+
+    /// Bisect triangles that break a rule of this solver once more, where that helps: adcirc, fvcom, telemac,
+    /// delft3dfm …
+    ///
+    /// As a triangle at a corner, all nodes of which are on the boundary. The mesh itself is another one
+    /// then, in all files and with its own fingerprint. The report says how many triangles were bisected.
+    /// meshbrush check --repair prints the layers that ask for it.
+    #[arg(long, value_name = "NAME", help_heading = "Output")]
+    pub repair_for: Option<Solver>,
 
     /// Write so many meshes, each with every node of the one before and four triangles for each of its: to
     /// sea_1.14, sea_2.14 … for -o sea.14

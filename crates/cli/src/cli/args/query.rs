@@ -41,6 +41,11 @@ pub struct CheckArguments {
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = finite, help_heading = "Rules")]
     pub least_depth: Option<f64>,
 
+    /// Bisect triangles that break a rule once more, where that helps, before the rules are checked, and
+    /// print the layers that ask for it, to be added to the recipe
+    #[arg(long, help_heading = "Rules")]
+    pub repair: bool,
+
     /// Print the answer as one JSON object on standard output
     #[arg(long, help_heading = "Output")]
     pub json: bool,

@@ -17,12 +17,11 @@ pub(super) fn obtuse(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
         let cosine = cosines.into_iter().fold(1.0, f64::min);
         let angle = fixed(libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees(), 1);
         let largest = fixed(libm::acos(LEAST_COSINE).to_degrees(), 2);
-        (cosine < LEAST_COSINE).then(|| BrokenPlace {
-            place: mesh.middle(triangle),
-            sentence: format!(
-                "Triangle {} has an angle of {angle}°, and {largest}° are the most.",
-                triangle + 1
-            ),
+        (cosine < LEAST_COSINE).then(|| {
+            BrokenPlace::new(
+                mesh.middle(triangle),
+                format!("Triangle {} has an angle of {angle}°, and {largest}° are the most.", triangle + 1),
+            )
         })
     };
     (0..mesh.triangles.len()).filter_map(found).collect()

@@ -1,18 +1,27 @@
 //! Rules on the boundary and its strings.
 
+use glam::DVec2;
+
 use super::{BrokenPlace, WrittenMesh, WrittenString};
+use meshbrush_core::domain::signed_area;
 
 /// The largest sum of FVCOM's numbers of the nodes of a triangle: 0 inside, 1 at a solid boundary, 2 at an
 /// open one.
 const LARGEST_SUM: usize = 4;
+/// The most edges of a hole that MeshKernel and D-Flow FM take for a cell.
+const MOST_EDGES_OF_CELL: usize = 6;
+/// Nodes of an open boundary at each end of it that do not count as a strip.
+const END: usize = 4;
+/// The fewest nodes in a row of a strip along land.
+const LEAST_STRIP: usize = 4;
 
 /// Finds nodes in which the boundary touches itself.
 pub(super) fn touching(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
     let mut leaving = vec![0_u32; mesh.nodes.len()];
     mesh.boundary().iter().for_each(|edge| leaving[edge[0]] += 1);
-    let found = |node: usize| BrokenPlace {
-        place: mesh.nodes[node],
-        sentence: format!("The boundary touches itself in node {}.", node + 1),
+    let found = |node: usize| {
+        let sentence = format!("The boundary touches itself in node {}.", node + 1);
+        BrokenPlace::new(mesh.nodes[node], sentence)
     };
     (0..leaving.len()).filter(|&node| leaving[node] > 1).map(found).collect()
 }
@@ -23,9 +32,9 @@ pub(super) fn open_nodes_twice(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
     mesh.strings.iter().filter(|string| string.is_open).flat_map(|string| &string.nodes).for_each(|&node| {
         times[node] += 1;
     });
-    let found = |node: usize| BrokenPlace {
-        place: mesh.nodes[node],
-        sentence: format!("Node {} is {} times in the list of open nodes.", node + 1, times[node]),
+    let found = |node: usize| {
+        let sentence = format!("Node {} is {} times in the list of open nodes.", node + 1, times[node]);
+        BrokenPlace::new(mesh.nodes[node], sentence)
     };
     (0..times.len()).filter(|&node| times[node] > 1).map(found).collect()
 }
@@ -40,24 +49,25 @@ pub(super) fn strings_of_two_nodes(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
     strings(mesh, |string| string.nodes.len() == 2)
 }
 
-/// Finds strings, with their number of nodes.
+/// Finds strings, with their number of nodes. Smaller triangles along one give it more.
 fn strings(mesh: &WrittenMesh, is_broken: impl Fn(&WrittenString) -> bool) -> Vec<BrokenPlace> {
     let found = |string: &WrittenString| {
         let (kind, count) = (if string.is_open { "open boundary" } else { "boundary" }, string.nodes.len());
         let nodes = if count == 1 { "node" } else { "nodes" };
         let sentence = format!("The {kind} “{}” has {count} {nodes}.", string.name);
-        Some(BrokenPlace { place: mesh.nodes[*string.nodes.first()?], sentence })
+        let place = mesh.nodes[*string.nodes.first()?];
+        Some(BrokenPlace::new(place, sentence).mended_in(mesh.triangles_along(&string.nodes)))
     };
     mesh.strings.iter().filter(|string| is_broken(string)).filter_map(found).collect()
 }
 
 /// Finds open pieces that vanish where nodes are marked instead of edges.
 pub(super) fn lost_open_pieces(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
-    let found = |(node, name): &(usize, String)| BrokenPlace {
-        place: mesh.nodes[*node],
-        sentence: format!(
+    let found = |(node, name): &(usize, String)| {
+        let sentence = format!(
             "No edge would be left of the open boundary “{name}”, which lies beside land of one edge."
-        ),
+        );
+        BrokenPlace::new(mesh.nodes[*node], sentence).mended_in(mesh.triangles_along(&[*node]))
     };
     mesh.lost_open.iter().map(found).collect()
 }
@@ -66,14 +76,14 @@ pub(super) fn lost_open_pieces(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
 pub(super) fn two_open_nodes_and_shore(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
     let number = |node: usize| usize::from(mesh.is_on_boundary(node)) + usize::from(mesh.is_open[node]);
     let sum = |triangle: usize| mesh.triangles[triangle].map(number).iter().sum::<usize>();
-    let found = |triangle| BrokenPlace {
-        place: mesh.middle(triangle),
-        sentence: format!(
+    let found = |triangle| {
+        let sentence = format!(
             "Triangle {} has two open nodes, and its third node is on the boundary, too: the sum over its nodes is {}, and \
              may be {LARGEST_SUM}.",
             triangle + 1,
             sum(triangle)
-        ),
+        );
+        BrokenPlace::new(mesh.middle(triangle), sentence).mended_in(vec![triangle])
     };
     (0..mesh.triangles.len()).filter(|&triangle| sum(triangle) > LARGEST_SUM).map(found).collect()
 }
@@ -93,7 +103,48 @@ pub(super) fn overconstrained(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
             _ => "two of its edges are on the boundary, and TELEMAC names it",
         };
         let sentence = format!("All nodes of triangle {} are on the boundary: {which}.", triangle + 1);
-        BrokenPlace { place: mesh.middle(triangle), sentence }
+        BrokenPlace::new(mesh.middle(triangle), sentence).mended_in(vec![triangle])
     };
     mesh.triangles.iter().enumerate().filter(|(_, corners)| is_broken(corners)).map(found).collect()
+}
+
+/// Finds islands with so few edges that they are taken for cells.
+pub(super) fn islands_like_cells(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
+    let is_island = |nodes: &Vec<usize>| {
+        let corners: Vec<DVec2> = nodes.iter().map(|&node| mesh.nodes[node]).collect();
+        nodes.len() <= MOST_EDGES_OF_CELL && signed_area(&corners) < 0.0
+    };
+    let found = |nodes: &Vec<usize>| {
+        let sentence = format!("An island has {} edges, and its solver takes it for a cell.", nodes.len());
+        BrokenPlace::new(mesh.nodes[nodes[0]], sentence).mended_in(mesh.triangles_along(nodes))
+    };
+    mesh.boundary_loops().iter().filter(|nodes| is_island(nodes)).map(found).collect()
+}
+
+/// Finds open boundaries along which a coast runs so close that no more than two triangles are between them.
+///
+/// ```text
+///   land ──────────────────     Nodes of the open boundary that are two edges from land or closer, at least
+///    /\  /\  /\  /\  /\  /\     LEAST_STRIP in a row. Those within END edges of the string's ends are left
+///   open ──────────────────     out: every open boundary meets the land there.
+/// ```
+pub(super) fn strips_along_frame(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
+    let is_land: Vec<bool> =
+        (0..mesh.nodes.len()).map(|node| mesh.is_on_boundary(node) && !mesh.is_open[node]).collect();
+    let is_near = mesh.beside(&mesh.beside(&is_land));
+    let in_string = |string: &WrittenString| {
+        let inner = string.nodes.get(END..string.nodes.len().saturating_sub(END)).unwrap_or_default();
+        let runs = inner.chunk_by(|&a, &b| is_near[a] == is_near[b]);
+        let strips = runs.filter(|run| is_near[run[0]] && run.len() >= LEAST_STRIP);
+        let found = |run: &[usize]| {
+            let sentence = format!(
+                "The open boundary “{}” runs along land over {} edges, with at most two triangles between them.",
+                string.name,
+                run.len() - 1
+            );
+            BrokenPlace::new(mesh.nodes[run[run.len() / 2]], sentence)
+        };
+        strips.map(found).collect::<Vec<_>>()
+    };
+    mesh.strings.iter().filter(|string| string.is_open).flat_map(in_string).collect()
 }

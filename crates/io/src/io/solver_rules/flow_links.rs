@@ -63,9 +63,8 @@ fn find(
     is_broken: fn(&CellLink) -> bool,
     sentence: impl Fn(&CellLink) -> String,
 ) -> Vec<BrokenPlace> {
-    let found = |link: &CellLink| BrokenPlace {
-        place: link.ends.map(|node| mesh.nodes[node]).iter().sum::<DVec2>() / 2.0,
-        sentence: sentence(link),
+    let found = |link: &CellLink| {
+        BrokenPlace::new(link.ends.map(|node| mesh.nodes[node]).iter().sum::<DVec2>() / 2.0, sentence(link))
     };
     mesh.links().iter().filter(|link| is_broken(link)).map(found).collect()
 }

@@ -9,6 +9,7 @@ mod angles;
 mod boundary;
 mod flow_links;
 mod nodes;
+mod repair;
 mod solver;
 #[cfg(test)]
 mod tests;
@@ -17,6 +18,7 @@ mod written_mesh;
 use glam::DVec2;
 use meshbrush_mesh::text::Grouped;
 
+pub use repair::{Repaired, repaired};
 pub use solver::{Solver, UnknownSolver};
 pub use written_mesh::{WrittenMesh, WrittenString};
 
@@ -29,6 +31,21 @@ pub struct BrokenPlace {
     pub place: DVec2,
     /// What is there, with its numbers.
     pub sentence: String,
+    /// The triangles of the file that can mend it by being bisected; none where
+    /// that would not help.
+    pub mended_in: Vec<usize>,
+}
+
+impl BrokenPlace {
+    /// Returns a place that smaller triangles would not mend.
+    pub(super) fn new(place: DVec2, sentence: String) -> Self {
+        Self { place, sentence, mended_in: Vec::new() }
+    }
+
+    /// Returns the place, which is mended where these triangles are bisected.
+    pub(super) fn mended_in(self, triangles: Vec<usize>) -> Self {
+        Self { mended_in: triangles, ..self }
+    }
 }
 
 /// How much a rule matters.
@@ -60,7 +77,7 @@ pub struct SolverRule {
 }
 
 /// The rules, those of all solvers first.
-pub static RULES: [SolverRule; 18] = [
+pub static RULES: [SolverRule; 20] = [
     SolverRule {
         name: "clockwise_triangle",
         solvers: &Solver::ALL,
@@ -154,6 +171,15 @@ pub static RULES: [SolverRule; 18] = [
         find: boundary::overconstrained,
     },
     SolverRule {
+        name: "strip_along_frame",
+        solvers: &[Adcirc, Schism, Fvcom, Telemac, Delft3dFm, Mike],
+        source: "runs of ADCIRC with advection and of FVCOM, which became unstable there",
+        severity: Severity::Note,
+        needs_strings: true,
+        remedy: "Cut the strip off the domain, or choose smaller triangles there.",
+        find: boundary::strips_along_frame,
+    },
+    SolverRule {
         name: "obtuse_angle",
         solvers: &[Swan],
         source: "SWAN SwanCheckGrid.ftn90",
@@ -189,6 +215,15 @@ pub static RULES: [SolverRule; 18] = [
         needs_strings: false,
         remedy: "Choose smaller triangles there, or orthogonalize the mesh there in RGFGRID.",
         find: flow_links::skewed,
+    },
+    SolverRule {
+        name: "island_like_cell",
+        solvers: &[Delft3dFm],
+        source: "MeshKernel, D-Flow FM: a face has at most 6 edges",
+        severity: Severity::Violation,
+        needs_strings: false,
+        remedy: "Choose smaller triangles there, so that the island has at least 7 edges, or leave it out.",
+        find: boundary::islands_like_cells,
     },
     SolverRule {
         name: "connection_of_no_length",

@@ -126,6 +126,55 @@ fn a_triangle_with_three_boundary_nodes_is_overconstrained() {
 }
 
 #[test]
+fn islands_of_few_edges_are_taken_for_cells() {
+    // A ring of triangles around a hole: corners of the hole first, then those outside.
+    let ring = |edges: usize| {
+        let angle = |n: f64| std::f64::consts::TAU * n / edges as f64;
+        let circle = |radius: f64, shift: f64| {
+            (0..edges).map(move |n| radius * DVec2::from_angle(angle(n as f64 + shift)))
+        };
+        let nodes = circle(1.0, 0.0).chain(circle(2.0, 0.5)).collect();
+        let next = |n: usize| (n + 1) % edges;
+        let pair = |n: usize| [[n, edges + n, next(n)], [next(n), edges + n, edges + next(n)]];
+        WrittenMesh::new(nodes, (0..edges).flat_map(pair).collect(), Vec::new())
+    };
+    for (edges, islands) in [(3, 1), (6, 1), (7, 0)] {
+        assert_eq!(places(&ring(edges), "island_like_cell").len(), islands, "{edges}");
+    }
+    let found = &broken_rules(&ring(5), Solver::Delft3dFm)[0].found[0];
+    assert_eq!(found.sentence, "An island has 5 edges, and its solver takes it for a cell.");
+    assert_eq!(found.mended_in, [0, 2, 4, 6, 8], "the triangles with an edge of the hole");
+}
+
+#[test]
+fn land_along_an_open_boundary_is_a_strip_where_two_triangles_are_between_them() {
+    // Columns of squares with open nodes below and land above, so many squares high.
+    let strip = |height: usize, length: usize| {
+        let width = length + 1;
+        let node = |x: usize, y: usize| y * width + x;
+        let nodes: Vec<[f64; 2]> =
+            (0..=height).flat_map(|y| (0..width).map(move |x| [x as f64, y as f64])).collect();
+        let squares = (0..height).flat_map(|y| (0..length).map(move |x| (x, y)));
+        let triangles = squares.flat_map(|(x, y)| {
+            let [a, b, c, d] = [node(x, y), node(x + 1, y), node(x + 1, y + 1), node(x, y + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        let triangles: Vec<[usize; 3]> = triangles.collect();
+        let open: Vec<usize> = (0..width).collect();
+        mesh(&nodes, &triangles, vec![string(true, "frame", &open)])
+    };
+    assert_eq!(places(&strip(1, 12), "strip_along_frame").len(), 1);
+    assert_eq!(places(&strip(2, 12), "strip_along_frame").len(), 1);
+    assert!(places(&strip(3, 12), "strip_along_frame").is_empty(), "an inner ring of nodes is between");
+    assert!(places(&strip(1, 9), "strip_along_frame").is_empty(), "the ends meet land anyway");
+    let broken = broken_rules(&strip(2, 12), Solver::Schism);
+    let found = broken.iter().find(|broken| broken.rule.name == "strip_along_frame").unwrap();
+    let sentence =
+        "The open boundary “frame” runs along land over 4 edges, with at most two triangles between them.";
+    assert_eq!(found.found[0].sentence, sentence);
+}
+
+#[test]
 fn swan_takes_angles_up_to_143_degrees_in_the_coordinates_of_the_file() {
     // tan 71.565° = 3: half of 143.13°, which is the most.
     let triangle = |half: f64| mesh(&[[-half, 0.0], [half, 0.0], [0.0, 1.0]], &[[0, 1, 2]], Vec::new());

@@ -1,6 +1,7 @@
 //! A mesh as a file of a solver has it.
 
 use std::borrow::Cow;
+use std::collections::HashSet;
 use std::sync::OnceLock;
 
 use glam::DVec2;
@@ -110,6 +111,47 @@ impl WrittenMesh {
     /// Returns the edges of one triangle, in its direction.
     pub(super) fn boundary(&self) -> &[[usize; 2]] {
         &self.boundary
+    }
+
+    /// Returns the nodes of each loop of the boundary, with the domain on the left. One that touches itself
+    /// has none.
+    pub(super) fn boundary_loops(&self) -> Vec<Vec<usize>> {
+        let mut next = vec![None; self.nodes.len()];
+        for &[from, to] in &self.boundary {
+            if next[from].replace(to).is_some() {
+                return Vec::new();
+            }
+        }
+        let mut loops = Vec::new();
+        for &[first, _] in &self.boundary {
+            let mut nodes: Vec<usize> =
+                std::iter::successors(Some(first), |&node| next[node].take()).collect();
+            // The first node comes again at the end, where it has no next one any more.
+            nodes.pop();
+            if !nodes.is_empty() {
+                loops.push(nodes);
+            }
+        }
+        loops
+    }
+
+    /// Returns the triangles with an edge of the boundary at one of these nodes.
+    pub(super) fn triangles_along(&self, nodes: &[usize]) -> Vec<usize> {
+        let edges: HashSet<[usize; 2]> =
+            self.boundary.iter().filter(|ends| ends.iter().any(|end| nodes.contains(end))).copied().collect();
+        let has_one = |&[a, b, c]: &[usize; 3]| [[a, b], [b, c], [c, a]].iter().any(|it| edges.contains(it));
+        self.triangles.iter().enumerate().filter(|(_, corners)| has_one(corners)).map(|(it, _)| it).collect()
+    }
+
+    /// Returns which nodes are chosen, or share a triangle with a node that is.
+    pub(super) fn beside(&self, chosen: &[bool]) -> Vec<bool> {
+        let mut beside = chosen.to_vec();
+        for corners in &self.triangles {
+            if corners.iter().any(|&node| chosen[node]) {
+                corners.iter().for_each(|&node| beside[node] = true);
+            }
+        }
+        beside
     }
 
     /// Returns the cells of the file.

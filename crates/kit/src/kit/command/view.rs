@@ -5,6 +5,7 @@ use glam::DVec2;
 
 use super::CommandSet;
 use crate::kit::coordinates::CoordinateStyle;
+use crate::kit::file_coordinates::FileCoordinates;
 use crate::kit::picture_choices::PictureChoices;
 use crate::kit::view::{CanvasAid, FieldOverlay};
 use crate::kit::{DockPlace, Tab};
@@ -43,6 +44,8 @@ pub enum ViewCommand {
     Colormap(Colormap),
     /// Chooses the coordinates that places are written in.
     Coordinates(CoordinateStyle),
+    /// Chooses the coordinates of exported meshes.
+    FileCoordinates(FileCoordinates),
     /// Chooses how exported pictures look.
     Picture(PictureChoices),
     /// Shows one level alone, or all, while the pointer is on the legend.

@@ -14,6 +14,7 @@ use super::Tab;
 use super::command::{InterfaceScale, ViewCommand};
 use super::coordinates::CoordinateStyle;
 use super::dock::Dock;
+use super::file_coordinates::FileCoordinates;
 use super::picture_choices::PictureChoices;
 use super::presentation::Presentation;
 use super::readout::Quantity;
@@ -53,6 +54,8 @@ pub struct View {
     pub aids: CanvasAids,
     /// The coordinates that places are written in.
     pub coordinates: CoordinateStyle,
+    /// The coordinates of exported meshes.
+    pub file_coordinates: FileCoordinates,
     /// How exported pictures look.
     pub picture: PictureChoices,
     /// Whether the panels are shown.
@@ -93,6 +96,7 @@ impl Default for View {
             overlay: FieldOverlay::None,
             aids: CanvasAids::default(),
             coordinates: CoordinateStyle::default(),
+            file_coordinates: FileCoordinates::default(),
             picture: PictureChoices::default(),
             panels: true,
             surrounds: true,
@@ -200,6 +204,7 @@ impl View {
             ViewCommand::SetOverlay(overlay) => self.overlay = overlay,
             ViewCommand::Colormap(map) => self.colormap = map,
             ViewCommand::Coordinates(style) => self.coordinates = style,
+            ViewCommand::FileCoordinates(coordinates) => self.file_coordinates = coordinates,
             ViewCommand::Picture(choices) => self.picture = choices,
             ViewCommand::ShowLevel(level) => self.lone_level = level,
             ViewCommand::ToggleLevel(level) => self.hidden_levels ^= bit_of(level),

@@ -8,7 +8,7 @@ use crate::app::features::statistics::StatisticsCommand;
 use crate::app::tests::{TALL, Window, open_section, send, set, wait_for_jobs, wait_until, window_of};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_io::io::solver_rules::Solver;
-use meshbrush_kit::kit::command::{Command, FileCommand};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 
 fn choose_solver(window: &mut Window, solver: Solver) {
     send(window, Command::from(StatisticsCommand::ChooseSolver(solver)));
@@ -46,10 +46,31 @@ fn places_of_a_sea_on_the_earth_are_in_its_plane() {
     wait_until(&mut window, |window| window.state().session().derived().is_some());
     open_section(&mut window, "Solver rules");
     choose_solver(&mut window, Solver::Telemac);
-    window.get_by_role_and_label(Role::Button, "Place 1").click();
+    let first = window.get_all_by_role_and_label(Role::Button, "Place 1").next();
+    first.expect("a rule is broken").click();
     window.run();
     let session = window.state().session();
     let middle = window.state().view().camera.unwrap().visible_world().center();
     assert!(session.document().settings().domain.bounds.contains(middle), "{middle}");
     assert!(session.locate(middle).triangle().is_some(), "a triangle is there");
+}
+
+#[test]
+fn repair_has_triangles_bisected_by_layers_and_undo_takes_them_away() {
+    let mut window = window_of(TALL);
+    open_section(&mut window, "Solver rules");
+    choose_solver(&mut window, Solver::Fvcom);
+    let settings = |window: &Window| window.state().session().document().settings().clone();
+    let before = settings(&window);
+    window.get_by_role_and_label(Role::Button, "Repair").click();
+    window.run();
+    wait_for_jobs(&mut window);
+    wait_until(&mut window, |window| row(window, "Rules").contains("kept: ready for FVCOM"));
+    let after = settings(&window);
+    let added: Vec<&str> = after.layers[before.layers.len()..].iter().map(|layer| &*layer.name).collect();
+    assert!(added.iter().any(|name| name.starts_with("Repair for FVCOM")), "{added:?}");
+    assert!(window.query_by_label_contains("bisected once more for FVCOM").is_some());
+    send(&mut window, Command::from(EditCommand::Undo));
+    wait_until(&mut window, |window| row(window, "Rules").ends_with("of 6 broken"));
+    assert_eq!(settings(&window), before, "one entry of the history");
 }

@@ -1,0 +1,104 @@
+//! The rules of solvers, and smaller triangles where a mesh breaks them.
+
+use meshbrush_cli::cli::check::FileToCheck;
+use meshbrush_cli::cli::details::provenance_from;
+use meshbrush_cli::cli::exported_mesh::ExportedMesh;
+use meshbrush_cli::cli::failure::Failure;
+use meshbrush_cli::cli::output_coordinates::OutputCoordinates;
+use meshbrush_core::field::RefinementRule;
+use meshbrush_io::io::solver_rules::{Solver, repaired};
+use meshbrush_io::io::{CellShape, DEPTH, MeshSource, NodeValues};
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+
+use crate::document::{Document, built, lock, origin_of};
+use crate::errors::mesh_error;
+use crate::mesh::{Mesh, values_at_nodes};
+use crate::work::{Watching, run};
+
+#[pymethods]
+impl Mesh {
+    /// Says where the mesh as a file of a solver has it breaks its rules: the text of `meshbrush check
+    /// --json`.
+    #[pyo3(signature = (solver, crs, cells, values))]
+    fn check(
+        slf: &Bound<'_, Self>,
+        solver: &str,
+        crs: Option<&str>,
+        cells: Option<&str>,
+        values: Vec<(String, PyReadonlyArray1<'_, f64>)>,
+    ) -> PyResult<String> {
+        let shared = slf.get().0.clone();
+        let solver: Solver = solver.parse().map_err(mesh_error)?;
+        let cells = cells.map(str::parse::<CellShape>).transpose();
+        let cells = cells.map_err(|error| mesh_error(format!("cells: {error}")))?.unwrap_or_default();
+        let coordinates = match crs {
+            Some(text) => text.parse().map_err(|error| mesh_error(format!("crs: {error}")))?,
+            None => OutputCoordinates::from(shared.finished.coordinates()),
+        };
+        let mut values = values_at_nodes(values, shared.counts()[0])?;
+        let answer = run(slf.py(), &Watching::QUIET, move |_| {
+            let details = shared.details().map_err(|problem| Failure::Work(problem.to_owned()))?;
+            let of_layers = details.depths.as_ref().map(|depths| depths.depths.clone());
+            if !values.iter().any(|values| values.name == DEPTH) {
+                values.extend(of_layers.map(|values| NodeValues { name: DEPTH.into(), values }));
+            }
+            let source = MeshSource::Document(&shared.name);
+            let provenance = &provenance_from(&shared.finished, source, None, coordinates);
+            shared.with_extract(|extract| {
+                let finished = &shared.finished;
+                let exported = ExportedMesh {
+                    finished,
+                    extract,
+                    details,
+                    provenance,
+                    coordinates,
+                    target_diameter: &[],
+                };
+                FileToCheck { exported, values: &values, cells, solver }.as_json()
+            })
+        })?;
+        answer.map_err(mesh_error)
+    }
+}
+
+#[pymethods]
+impl Document {
+    /// Adds layers with which the mesh keeps the rules of a solver, as far as smaller triangles help, as one
+    /// edit. Returns the triangles that they bisect, and the places that are left.
+    fn repair(&self, py: Python<'_>, solver: &str, watching: Watching) -> PyResult<(usize, usize)> {
+        let solver: Solver = solver.parse().map_err(mesh_error)?;
+        let state = self.state.clone();
+        let (found, revision) = run(py, &watching, move |watch| {
+            let (origin, revision) = {
+                let state = lock(&state);
+                let lattice = state.document.settings().lattice().map_err(|error| error.to_string())?;
+                (origin_of(&state, lattice), state.document.revision())
+            };
+            if origin.spec.rule == RefinementRule::Vertex {
+                return Err(BY_VERTICES.to_owned());
+            }
+            let make = |spec| built(spec, &origin.paint, watch).map(|(built, ..)| built);
+            Ok((repaired(solver, &origin.spec, &origin.marks, 1.0, make)?, revision))
+        })?
+        .map_err(mesh_error)?;
+        self.with(py, |state| {
+            let document = &mut state.document;
+            if document.revision() != revision {
+                return Err(mesh_error(CHANGED));
+            }
+            document.end_gesture();
+            for setting in found.settings_for(document) {
+                document.set(setting).map_err(mesh_error)?;
+            }
+            document.end_gesture();
+            Ok(())
+        })?;
+        Ok((found.bisected, found.left.iter().map(|broken| broken.found.len()).sum()))
+    }
+}
+
+const CHANGED: &str =
+    "The document was changed while its mesh was being repaired, and nothing was added. Repair it again.";
+const BY_VERTICES: &str = "The mesh cannot be repaired: by the vertex rule sizes count in nodes only, so none can ask for one triangle \
+                           to be bisected. Choose rule=\"area\".";
