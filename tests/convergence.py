@@ -1,7 +1,7 @@
-"""Order of convergence of linear elements on exported meshes with curved outlines.
+"""Order of convergence of linear elements on exported meshes with curved outlines, and on an exactly nested sequence.
 
     pip install scikit-fem scipy meshio
-    python tests/convergence.py target/release/meshbrush outline fitted
+    python tests/convergence.py target/release/meshbrush outline fitted sequence
 
 Each problem is solved with scikit-fem on meshes of five sizes. Printed are the L2 errors and the orders of convergence: of the last
 step, and on average. Not part of tests/run, because of the packages that it needs.
@@ -98,6 +98,35 @@ def mesh_of(program, folder, outline, boundary, size):
     return skfem.MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(triangles))
 
 
+def nested(program, folder):
+    """The graded meshes of `--sequence`: each has every node of the one before."""
+    target = ["--target", "0.06+0.3*hypot(x-0.3,y-0.4)", "--gradation", "0.3", "--sequence", str(len(SIZES))]
+    command = [program, "mesh", "--domain", "0,0,1,1", "--spacing", "0.25", *target, "-o", str(folder / "m.vtu")]
+    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+    for number in range(1, len(SIZES) + 1):
+        read = meshio.read(folder / f"m_{number}.vtu")
+        points, triangles = read.points[:, :2].T, read.cells_dict["triangle"].T
+        yield skfem.MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(triangles))
+
+
+def sines(basis):
+    """-Δu = 13π² sin 2πx sin 3πy, and u = 0 on the boundary of the square."""
+    load = skfem.LinearForm(lambda v, w: 13 * np.pi**2 * product_of_sines(*w.x) * v).assemble(basis)
+    return solved_with_values(basis, load, np.zeros(basis.N)), product_of_sines
+
+
+def product_of_sines(x, y):
+    return np.sin(2 * np.pi * x) * np.sin(3 * np.pi * y)
+
+
+def print_sequence(program):
+    with tempfile.TemporaryDirectory() as folder:
+        bases = [skfem.Basis(m, skfem.ElementTriP1(), intorder=6) for m in nested(program, pathlib.Path(folder))]
+    errors = [error(basis, sines) for basis in bases]
+    orders = " ".join(f"{math.log2(before / after):.3f}" for before, after in zip(errors, errors[1:]))
+    print(f"sequence of {bases[0].mesh.t.shape[1]} triangles and more: {' '.join(f'{e:.2e}' for e in errors)}; orders {orders}")
+
+
 def error(basis, problem):
     solution, exact = problem(basis)
     squared = skfem.Functional(lambda w: (w["found"] - exact(*w.x)) ** 2)
@@ -106,6 +135,9 @@ def error(basis, problem):
 
 def main():
     program, *treatments = sys.argv[1:]
+    if "sequence" in treatments:
+        treatments.remove("sequence")
+        print_sequence(program)
     for boundary in treatments:
         for name, (outline, problems) in DOMAINS.items():
             errors = []

@@ -396,8 +396,39 @@ def check_small_vtu(program, folder):
     return len(spacings), failed
 
 
+def check_squares(program, folder):
+    """Quadrilaterals of .vtu and .msh are those of .gr3, which is text, and cover the area of the mesh."""
+    names = [str(folder / name) for name in ("m.vtu", "m.msh", "b.msh", "m.gr3")]
+    command = [program, "mesh", "--target", "0.05+0.2*r", "--cells", "squares", "--json"]
+    command += [word for name in names[:2] + names[3:] for word in ("-o", name)]
+    summary = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout)
+    subprocess.run(command[:4] + command[4:6] + ["--binary", "-o", names[2]], check=True, stderr=subprocess.DEVNULL)
+    lines = (folder / "m.gr3").read_text().splitlines()
+    count, nodes = map(int, lines[1].split())
+    rows = [list(map(int, line.split()))[2:] for line in lines[2 + nodes : 2 + nodes + count]]
+    expected = sorted(tuple(node - 1 for node in row) for row in rows)
+    quads = sum(len(row) == 4 for row in rows)
+    assert quads > 10 and count + quads == summary["triangles"], f"{quads} quadrilaterals"
+    failures = []
+    for name in names[:3]:
+        try:
+            mesh = meshio.read(name)
+            blocks = {kind: cells for kind, cells in mesh.cells_dict.items() if kind != "line"}
+            assert sorted(blocks) == ["quad", "triangle"], sorted(blocks)
+            found = sorted(tuple(map(int, cell)) for cells in blocks.values() for cell in cells)
+            assert found == expected, "other cells"
+            assert len(mesh.cell_data_dict["level"]["quad"]) == quads, "levels"
+        except Exception as error:  # whatever a reader cannot take
+            failures.append(f"{pathlib.Path(name).name}: {type(error).__name__}: {error}")
+    return quads, failures
+
+
 def main():
     broken = False
+    with tempfile.TemporaryDirectory() as folder:
+        quads, failures = check_squares(sys.argv[1], pathlib.Path(folder))
+    print(f"squares: {quads} quadrilaterals, vtu, msh: {'; '.join(failures) or 'read back'}")
+    broken |= bool(failures)
     with tempfile.TemporaryDirectory() as folder:
         count, failed = check_small_vtu(sys.argv[1], pathlib.Path(folder))
     print(f"{count} small .vtu files: {'not read at the spacings ' + ', '.join(failed) if failed else 'read back'}")

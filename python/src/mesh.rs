@@ -36,7 +36,7 @@ pub struct Mesh(pub Arc<Shared>);
 pub struct Shared {
     pub finished: FinishedMesh,
     /// The name of the document.
-    name: String,
+    pub name: String,
     /// The mesh as files have it, where it is not the whole mesh.
     extract: OnceLock<Option<Extract<'static>>>,
     nodes: OnceLock<Vec<f64>>,

@@ -23,5 +23,6 @@ mod partition;
 mod sequence;
 #[path = "../shared/runs.rs"]
 mod runs;
+mod solver_seas;
 mod straits;
 mod surface;

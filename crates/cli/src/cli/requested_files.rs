@@ -32,7 +32,8 @@ const MOST_FILES: usize = 1000;
 const MOST_QUANTITIES: usize = 100;
 
 /// Why a file cannot have quadrilaterals.
-const TRIANGLES_ONLY: &str = "has triangles only; .nc, .disv, .gr3, .ll, .2dm and .mesh have quadrilaterals.";
+const TRIANGLES_ONLY: &str =
+    "has triangles only; .nc, .disv, .gr3, .ll, .2dm, .mesh, .vtu and .msh have quadrilaterals.";
 
 /// Files with one look and the same values at the nodes.
 #[derive(Clone, Debug)]

@@ -1,25 +1,29 @@
 //! `.msh`: Gmsh 4.1, as text or in binary form, with the physical groups that solvers need.
 //!
-//! z is the height of the surface, or 0 without one. The triangles are the physical surface `domain` (1).
+//! z is the height of the surface, or 0 without one. The triangles are the physical surface `domain` (1), and
+//! so are quadrilaterals where squares are asked for; they follow the triangles.
 //! Each piece of the boundary that has edges in the mesh is a physical curve with the name and the marker of
 //! the piece, with the domain on the left. h̄ and the quantities are node data; `level` and `part` (the
 //! number of the connected part, from 0 for the largest) are element data. Tags count from one, triangles
-//! first: the tag of a triangle is its id plus one.
+//! first: without quadrilaterals the tag of a triangle is its id plus one.
 //!
 //! Both forms hold the same numbers. The binary one is quicker to write and to read, and not smaller. It is
 //! little-endian on every machine.
 
 use std::io::{self, Write};
 
+use super::format_spec::SquareCells;
+use super::written_cells::WrittenCells;
 use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId, TriangleId};
+use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
     size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
     has_targets: true,
+    squares: SquareCells::Possible,
     third: ThirdCoordinate::Height,
     write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),
     ..FormatSpec::new("msh", &["msh"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
@@ -28,6 +32,8 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// Gmsh's numbers for an element of two and of three nodes.
 pub(super) const LINE: i32 = 1;
 pub(super) const TRIANGLE: i32 = 2;
+/// Gmsh's number for an element of four nodes.
+const QUADRILATERAL: i32 = 3;
 /// The tag of the surface and of its physical group.
 pub(super) const SURFACE: i32 = 1;
 
@@ -69,9 +75,10 @@ impl<W: Write> Writer<'_, W> {
         write_names(self.out, data, &curves)?;
         self.write_entities(mesh, data, &curves)?;
         self.write_nodes(mesh, data)?;
-        self.write_elements(mesh, &curves)?;
+        let cells = CellsByCorners::new(mesh, data);
+        self.write_elements(&cells, &curves)?;
         self.write_node_views(data)?;
-        self.write_element_views(mesh, data, &curves)
+        self.write_element_views(mesh, data, &cells, &curves)
     }
 
     /// Values of nodes.
@@ -81,19 +88,29 @@ impl<W: Write> Writer<'_, W> {
         })
     }
 
-    /// Values of elements, the triangles before the edges of curves.
-    fn write_element_views(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
+    /// Values of elements, the cells before the edges of curves.
+    fn write_element_views(
+        &mut self,
+        mesh: &Extract,
+        data: &MeshData,
+        cells: &CellsByCorners<'_>,
+        curves: &[Curve],
+    ) -> io::Result<()> {
         // meshio requires element data for all elements or none, so a boundary edge gets the data of its
         // triangle.
         let lines: Vec<usize> =
             curves.iter().flat_map(|curve| &curve.edges).map(|edge| edge.triangle).collect();
-        let triangles = mesh.triangles().len();
-        let triangle_of =
-            |element: usize| if element < triangles { element } else { lines[element - triangles] };
-        let level = |element| f64::from(mesh.triangles()[triangle_of(element)].level());
-        self.write_values("ElementData", "level", triangles + lines.len(), level)?;
-        let part = |element| f64::from(data.parts[triangle_of(element)]);
-        self.write_values("ElementData", "part", triangles + lines.len(), part)
+        let of_cells = cells.order.len();
+        let level = |element: usize| match element.checked_sub(of_cells) {
+            None => f64::from(cells.written.level(cells.order[element])),
+            Some(line) => f64::from(mesh.triangles()[lines[line]].level()),
+        };
+        self.write_values("ElementData", "level", of_cells + lines.len(), level)?;
+        let part = |element: usize| match element.checked_sub(of_cells) {
+            None => f64::from(data.parts[cells.written.triangles(cells.order[element])[0]]),
+            Some(line) => f64::from(data.parts[lines[line]]),
+        };
+        self.write_values("ElementData", "part", of_cells + lines.len(), part)
     }
 
     fn write_head(&mut self, data: &MeshData) -> io::Result<()> {
@@ -138,17 +155,29 @@ impl<W: Write> Writer<'_, W> {
         self.end("Nodes")
     }
 
-    fn write_elements(&mut self, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
-        let triangles = mesh.triangles().len();
-        let all = triangles + curves.iter().map(|curve| curve.edges.len()).sum::<usize>();
+    fn write_elements(&mut self, cells: &CellsByCorners<'_>, curves: &[Curve]) -> io::Result<()> {
+        let CellsByCorners { written, order, triangles } = cells;
+        let (triangles, of_cells) = (*triangles, order.len());
+        let all = of_cells + curves.iter().map(|curve| curve.edges.len()).sum::<usize>();
+        let surfaces = [triangles, of_cells - triangles].iter().filter(|count| **count > 0).count();
         writeln!(self.out, "$Elements")?;
-        self.row(&[Size(curves.len() + 1), Size(all), Size(1), Size(all)])?;
-        self.row(&[Int(2), Int(SURFACE), Int(TRIANGLE), Size(triangles)])?;
+        self.row(&[Size(curves.len() + surfaces), Size(all), Size(1), Size(all)])?;
+        if triangles > 0 {
+            self.row(&[Int(2), Int(SURFACE), Int(TRIANGLE), Size(triangles)])?;
+        }
         self.rows(triangles, |id| {
-            let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| Size(node + 1));
-            [Size(id + 1), a, b, c]
+            let ([a, b, c], _) = written.corners(order[id]);
+            [Size(id + 1), Size(a + 1), Size(b + 1), Size(c + 1)]
         })?;
-        let mut tag = triangles;
+        if of_cells > triangles {
+            self.row(&[Int(2), Int(SURFACE), Int(QUADRILATERAL), Size(of_cells - triangles)])?;
+        }
+        self.rows(of_cells - triangles, |number| {
+            let id = triangles + number;
+            let ([a, b, c], fourth) = written.corners(order[id]);
+            [Size(id + 1), Size(a + 1), Size(b + 1), Size(c + 1), Size(fourth.unwrap_or(c) + 1)]
+        })?;
+        let mut tag = of_cells;
         for curve in curves {
             self.row(&[Int(1), Int(curve.tag()), Int(LINE), Size(curve.edges.len())])?;
             for edge in &curve.edges {
@@ -192,6 +221,25 @@ impl<W: Write> Writer<'_, W> {
     fn end(&mut self, section: &str) -> io::Result<()> {
         let line_break = if self.is_binary { "\n" } else { "" };
         writeln!(self.out, "{line_break}$End{section}")
+    }
+}
+
+/// The cells, triangles before quadrilaterals: each kind is a block of its own.
+struct CellsByCorners<'a> {
+    written: WrittenCells<'a>,
+    order: Vec<usize>,
+    /// How many of them are triangles.
+    triangles: usize,
+}
+
+impl<'a> CellsByCorners<'a> {
+    fn new(mesh: &'a Extract<'a>, data: &MeshData<'a>) -> Self {
+        let written = WrittenCells::new(mesh, data, FORMAT.squares);
+        let all = 0..written.count();
+        let (three, four): (Vec<usize>, Vec<usize>) =
+            all.partition(|&cell| written.corners(cell).1.is_none());
+        let triangles = three.len();
+        Self { written, order: [three, four].concat(), triangles }
     }
 }
 

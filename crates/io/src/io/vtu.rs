@@ -4,7 +4,8 @@
 //!
 //! Point data: `target_diameter` (h̄), the quantities, and `boundary`, the marker of the piece of the
 //! boundary (the lower one where pieces meet), 0 elsewhere. Cell data: `level`, and `part`, the number of the
-//! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it.
+//! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it. Cells are triangles, or
+//! quadrilaterals where squares are asked for.
 //!
 //! Field data: `boundary_names`, the names of the pieces in the order of their markers, a line for each, as
 //! bytes of UTF-8; the line of a piece that has no edge in the mesh is empty. (VTK has arrays of strings, but
@@ -23,6 +24,8 @@
 use std::io::{self, Write};
 
 use super::blocks::{BLOCK, Blocks};
+use super::format_spec::SquareCells;
+use super::written_cells::WrittenCells;
 use super::{FormatSpec, MeshData, Meter, ThirdCoordinate, TypicalSize};
 use meshbrush_mesh::mesh::Extract;
 
@@ -31,6 +34,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
     size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
     has_targets: true,
+    squares: SquareCells::Possible,
     third: ThirdCoordinate::Height,
     ..FormatSpec::new("vtu", &["vtu"], |mut out, mesh, data, meter| {
         write_metered(&mut out, mesh, data, meter)
@@ -39,8 +43,9 @@ pub static FORMAT: FormatSpec = FormatSpec {
 
 /// Bytes of names in one line.
 const BYTES_A_LINE: usize = 24;
-/// VTK's number for a triangle.
+/// VTK's numbers for a triangle and for a quadrilateral.
 const VTK_TRIANGLE: u8 = 5;
+const VTK_QUAD: u8 = 9;
 
 type WriteBytes<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
 
@@ -128,27 +133,27 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Fails as [`write()`] does, and when the work was cancelled.
 pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
     let markers = data.boundary.node_markers(mesh);
+    let cells = WrittenCells::new(mesh, data, FORMAT.squares);
     let mut sections = [
         ("PointData", point_data(data, &markers)),
-        ("CellData", vec![levels(mesh), parts(data)]),
+        ("CellData", vec![levels(&cells), parts(&cells, data)]),
         ("Points", vec![points(mesh, data)]),
-        ("Cells", topology(mesh)),
+        ("Cells", topology(&cells)),
     ];
     let bytes: usize = sections.iter().flat_map(|(_, arrays)| arrays).map(|array| array.bytes).sum();
     meter.expect(2 * bytes as u64);
     sections.iter_mut().flat_map(|(_, arrays)| arrays).try_for_each(|array| array.measure(meter))?;
-    write_header(out, mesh, data, &sections)?;
+    write_header(out, [mesh.nodes().len(), cells.count()], data, &sections)?;
     sections.iter().flat_map(|(_, arrays)| arrays).rev().try_for_each(|array| array.append(out, meter))?;
     writeln!(out, "\n  </AppendedData>\n</VTKFile>")
 }
 
 fn write_header(
     out: &mut impl Write,
-    mesh: &Extract,
+    [nodes, cells]: [usize; 2],
     data: &MeshData,
     sections: &[(&str, Vec<Array<'_>>)],
 ) -> io::Result<()> {
-    let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
     writeln!(out, "<?xml version=\"1.0\"?>")?;
     writeln!(out, "<?meshbrush")?;
     // What would end the instruction is taken apart.
@@ -161,7 +166,7 @@ fn write_header(
     )?;
     writeln!(out, "  <UnstructuredGrid>")?;
     write_names(out, data)?;
-    writeln!(out, "    <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{triangles}\">")?;
+    writeln!(out, "    <Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{cells}\">")?;
     let mut offset: u64 = sections.iter().flat_map(|(_, arrays)| arrays).map(Array::length).sum();
     for (section, arrays) in sections {
         writeln!(out, "      <{section}>")?;
@@ -204,14 +209,14 @@ fn point_data<'a>(data: &'a MeshData<'a>, markers: &'a [u32]) -> Vec<Array<'a>> 
     arrays
 }
 
-fn levels<'a>(mesh: &'a Extract) -> Array<'a> {
-    let levels = || mesh.triangles().iter().map(|t| [t.level() as u8]);
-    Array::new("level", "UInt8", 1, mesh.triangles().len(), levels)
+fn levels<'a>(cells: &'a WrittenCells<'a>) -> Array<'a> {
+    let levels = || (0..cells.count()).map(|cell| [cells.level(cell) as u8]);
+    Array::new("level", "UInt8", 1, cells.count(), levels)
 }
 
-fn parts<'a>(data: &'a MeshData<'a>) -> Array<'a> {
-    let parts = || data.parts.iter().map(|part| part.to_le_bytes());
-    Array::new("part", "UInt32", 1, data.parts.len(), parts)
+fn parts<'a>(cells: &'a WrittenCells<'a>, data: &'a MeshData<'a>) -> Array<'a> {
+    let parts = || (0..cells.count()).map(|cell| data.parts[cells.triangles(cell)[0]].to_le_bytes());
+    Array::new("part", "UInt32", 1, cells.count(), parts)
 }
 
 fn points<'a>(mesh: &'a Extract, data: &'a MeshData<'a>) -> Array<'a> {
@@ -222,13 +227,24 @@ fn points<'a>(mesh: &'a Extract, data: &'a MeshData<'a>) -> Array<'a> {
     Array::new("Points", "Float64", 3, 3 * mesh.nodes().len(), coordinates)
 }
 
-fn topology<'a>(mesh: &'a Extract) -> Vec<Array<'a>> {
-    let count = mesh.triangles().len();
-    let corners = || mesh.cells().flat_map(|cell| cell.corners).map(|node| (node as i64).to_le_bytes());
-    let ends = move || (1..=count as i64).map(|n| (3 * n).to_le_bytes());
+fn topology<'a>(cells: &'a WrittenCells<'a>) -> Vec<Array<'a>> {
+    let count = cells.count();
+    let nodes_of = |cell: usize| {
+        let (corners, fourth) = cells.corners(cell);
+        corners.into_iter().chain(fourth)
+    };
+    let corners = move || (0..count).flat_map(nodes_of).map(|node| (node as i64).to_le_bytes());
+    let ends = || {
+        let add = |end: &mut i64, cell: usize| {
+            *end += if cells.corners(cell).1.is_some() { 4 } else { 3 };
+            Some(end.to_le_bytes())
+        };
+        (0..cells.count()).scan(0, add)
+    };
+    let kind = |cell: usize| [if cells.corners(cell).1.is_some() { VTK_QUAD } else { VTK_TRIANGLE }];
     vec![
-        Array::new("connectivity", "Int64", 1, 3 * count, corners),
+        Array::new("connectivity", "Int64", 1, 3 * count + cells.joined_count(), corners),
         Array::new("offsets", "Int64", 1, count, ends),
-        Array::new("types", "UInt8", 1, count, move || std::iter::repeat_n([VTK_TRIANGLE], count)),
+        Array::new("types", "UInt8", 1, count, move || (0..count).map(kind)),
     ]
 }

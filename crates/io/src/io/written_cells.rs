@@ -126,6 +126,12 @@ impl<'a> WrittenCells<'a> {
         self.joined.map_or([cell; 2], |cells| cells.list()[cell].triangles)
     }
 
+    /// Returns the level of a cell: the lower one of those of its triangles.
+    pub(super) fn level(&self, cell: usize) -> u32 {
+        let [a, b] = self.triangles(cell).map(|triangle| self.mesh.triangles()[triangle].level());
+        a.min(b)
+    }
+
     /// Returns whether an edge of a triangle is an edge of its cell, and not inside it.
     pub(super) fn has_edge(&self, triangle: usize, [from, to]: [usize; 2]) -> bool {
         let diagonal = self.diagonals.get(triangle).copied().flatten();

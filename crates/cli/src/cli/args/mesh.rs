@@ -33,7 +33,7 @@ pub struct MeshArguments {
     #[arg(long, help_heading = "Output")]
     pub binary: bool,
 
-    /// Cells in .nc, .disv, .gr3, .ll, .2dm and .mesh: the triangles, or pairs of them joined to
+    /// Cells in .nc, .disv, .gr3, .ll, .2dm, .mesh, .vtu and .msh: the triangles, or pairs of them joined to
     /// quadrilaterals where a solver could have no link between them [default: squares in .nc, for
     /// Delft3D-FM, and .disv, for MODFLOW, and triangles elsewhere]
     #[arg(long, value_name = "triangles|squares", help_heading = "Output")]

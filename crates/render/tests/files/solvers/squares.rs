@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 use meshbrush_core::domain::{BoundaryTreatment, Domain, MeshBoundary};
-use meshbrush_io::io::{CellShape, JoinedCells, MeshData, gr3, mike, sms, ugrid};
+use meshbrush_io::io::{CellShape, JoinedCells, MeshData, gr3, mike, msh, sms, ugrid};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::LengthUnit;
@@ -77,6 +77,34 @@ fn cells_of_mike(text: &str) -> Vec<Vec<usize>> {
     cells
 }
 
+/// Returns the elements of Gmsh 4.1 with three or four nodes.
+fn cells_of_msh(text: &str) -> Vec<Vec<usize>> {
+    let mut lines = text.lines().skip_while(|line| *line != "$Elements").skip(1).map(numbers);
+    let [blocks, count] = [0, 1].map({
+        let head = lines.next().unwrap();
+        move |n| head[n]
+    });
+    let (mut cells, mut tags) = (Vec::new(), 0);
+    for _ in 0..blocks {
+        let head = lines.next().unwrap();
+        let nodes = match head[2] {
+            1 => 2,
+            2 => 3,
+            3 => 4,
+            kind => panic!("an element of the kind {kind}"),
+        };
+        for row in lines.by_ref().take(head[3]) {
+            tags += 1;
+            assert_eq!((row[0], row.len()), (tags, nodes + 1));
+            if nodes > 2 {
+                cells.push(row[1..].iter().map(|node| node - 1).collect());
+            }
+        }
+    }
+    assert_eq!(tags, count);
+    cells
+}
+
 /// Returns the faces of UGRID.
 fn cells_of_ugrid(file: &NetCdf) -> Vec<Vec<usize>> {
     let faces = file.dimensions["mesh2d_nFaces"];
@@ -143,6 +171,10 @@ fn cells_of_all_formats_are_the_same_and_cover_the_mesh() {
         check_cells(&case, &cells);
         assert_eq!(cells_of_2dm(&text(sms::write)), cells);
         assert_eq!(cells_of_mike(&text(mike::write)), cells);
+        let [mut by_corners, mut sorted] = [cells_of_msh(&text(msh::write)), cells.clone()];
+        by_corners.sort_unstable();
+        sorted.sort_unstable();
+        assert_eq!(by_corners, sorted);
         let file = NetCdf::read(&with_squares(&case, ugrid::write));
         assert_eq!(cells_of_ugrid(&file), cells);
         // By default, too.
