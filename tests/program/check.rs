@@ -147,7 +147,7 @@ fn a_boundary_that_touches_itself_is_named_with_the_rules_that_wait_for_it() {
 
 /// Returns how many triangles in the files of FVCOM have two open nodes and a third one on the boundary, and
 /// how many have no node inside.
-fn refused(folder: &Folder, stem: &str) -> [usize; 2] {
+pub fn refused(folder: &Folder, stem: &str) -> [usize; 2] {
     let (triangles, boundary, open) = read_fvcom(folder, stem);
     let sum = |node: &usize| usize::from(boundary.contains(node)) + usize::from(open.contains(node));
     let is_refused = |corners: &&[usize; 3]| corners.iter().map(sum).sum::<usize>() > 4;

@@ -1,19 +1,19 @@
-//! Rules of solvers on random seas: what `meshbrush check` counts, and what a repair leaves, against counts from
-//! the files alone.
+//! Rules of solvers on random seas: what `meshbrush check` counts, and what a repair leaves, against counts
+//! from the files alone.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use serde_json::Value;
 
+use crate::check::refused;
 use crate::folder::Folder;
 use crate::runs::{prints_table, seeds};
 
-/// What the files of a mesh say.
-struct SeaFiles {
-    triangles: Vec<[usize; 3]>,
+/// The strings of a file of ADCIRC.
+struct Strings {
     open: Vec<Vec<usize>>,
-    /// Strings of land and islands with their type.
+    /// Those of land and islands, with their types.
     closed: Vec<(usize, Vec<usize>)>,
 }
 
@@ -50,16 +50,14 @@ fn random_sea(folder: &Folder, seed: u64) -> String {
 }
 
 /// Reads `fort.14`.
-fn read_14(text: &str) -> SeaFiles {
+fn read_14(text: &str) -> Strings {
     let numbers = |line: &str| -> Vec<f64> {
         line.split('=').next().unwrap().split_whitespace().map_while(|word| word.parse().ok()).collect()
     };
     let mut lines = text.lines().skip(1).map(numbers);
     let counts = lines.next().unwrap();
     let (elements, nodes) = (counts[0] as usize, counts[1] as usize);
-    lines.by_ref().take(nodes).for_each(drop);
-    let corners = |row: Vec<f64>| [2, 3, 4].map(|k| row[k] as usize - 1);
-    let triangles = lines.by_ref().take(elements).map(corners).collect();
+    lines.by_ref().take(nodes + elements).for_each(drop);
     let mut strings = || {
         let count = lines.next().unwrap()[0] as usize;
         lines.next();
@@ -72,50 +70,38 @@ fn read_14(text: &str) -> SeaFiles {
         all
     };
     let open = strings().into_iter().map(|(_, nodes)| nodes).collect();
-    SeaFiles { triangles, open, closed: strings() }
+    Strings { open, closed: strings() }
 }
 
-impl SeaFiles {
-    /// Returns for each rule how many places break it.
-    fn counts(&self) -> HashMap<&'static str, usize> {
-        let mut uses: HashMap<[usize; 2], usize> = HashMap::new();
-        for &[a, b, c] in &self.triangles {
-            for [from, to] in [[a, b], [b, c], [c, a]] {
-                *uses.entry([from.min(to), from.max(to)]).or_default() += 1;
-            }
-        }
-        let nodes = 1 + self.triangles.iter().flatten().max().unwrap();
-        let (mut weight, mut is_open) = (vec![0; nodes], vec![0; nodes]);
-        uses.iter()
-            .filter(|(_, uses)| **uses == 1)
-            .flat_map(|(edge, _)| edge)
-            .for_each(|&node| weight[node] = 1);
-        self.open.iter().flatten().for_each(|&node| is_open[node] += 1);
-        let sum = |corners: &[usize; 3]| -> usize {
-            corners.iter().map(|&node| weight[node] + usize::from(is_open[node] > 0)).sum()
-        };
-        let is_shore = |corners: &&[usize; 3]| corners.iter().all(|&node| weight[node] == 1);
+impl Strings {
+    /// Returns for each rule how many places break it. The files of FVCOM have the triangles that it refuses
+    /// and those without an inner node: an open node beside land of one edge is none there.
+    fn counts(&self, [refused, shore]: [usize; 2]) -> HashMap<&'static str, usize> {
+        let mut times: HashMap<usize, usize> = HashMap::new();
+        self.open.iter().flatten().for_each(|&node| *times.entry(node).or_default() += 1);
         let islands = self.closed.iter().filter(|(kind, _)| [1, 11, 21].contains(kind));
         let strings = self.open.iter().chain(self.closed.iter().map(|(_, nodes)| nodes));
         HashMap::from([
-            ("open_node_twice", is_open.iter().filter(|&&times| times > 1).count()),
+            ("open_node_twice", times.values().filter(|&&times| times > 1).count()),
             ("boundary_of_two_nodes", strings.filter(|nodes| nodes.len() == 2).count()),
-            ("two_open_nodes_and_shore", self.triangles.iter().filter(|it| sum(it) > 4).count()),
-            ("overconstrained_triangle", self.triangles.iter().filter(is_shore).count()),
+            ("two_open_nodes_and_shore", refused),
+            ("overconstrained_triangle", shore),
             ("island_like_cell", islands.filter(|(_, nodes)| nodes.len() <= 6).count()),
         ])
     }
 }
 
-/// Meshes a sea with further options, and returns what its file says beside the answer of the command.
-fn meshed(folder: &Folder, options: &str) -> Option<(SeaFiles, Value)> {
-    let ran = folder.run(format!("mesh {options} -o sea.14 --json").as_str());
+/// Meshes a sea with further options, and returns for each rule how many places break it by the files, beside
+/// the answer of the command.
+fn meshed(folder: &Folder, options: &str) -> Option<(HashMap<&'static str, usize>, Value)> {
+    let ran = folder.run(format!("mesh {options} -o sea.14 -o sea.dat --json").as_str());
     if ran.status != 0 {
-        // What is left of the sea in its bounds, or a boundary that touches itself.
-        assert!(ran.err.contains("touches itself") || ran.err.contains("domain"), "{options}: {}", ran.err);
+        // Nothing is left of the sea in its bounds, its boundary touches itself, or an open piece has one edge.
+        let known = ["touches itself", "no edge would remain", "domain"];
+        assert!(known.iter().any(|why| ran.err.contains(why)), "{options}: {}", ran.err);
         return None;
     }
-    Some((read_14(&folder.read("sea.14")), ran.json()))
+    Some((read_14(&folder.read("sea.14")).counts(refused(folder, "sea")), ran.json()))
 }
 
 #[test]
@@ -124,8 +110,7 @@ fn places_are_counted_and_mended_as_the_files_have_them() {
     let [mut seas, mut broken, mut mended] = [0; 3];
     for seed in seeds(6) {
         let options = random_sea(&folder, seed);
-        let Some((files, _)) = meshed(&folder, &options) else { continue };
-        let counts = files.counts();
+        let Some((counts, _)) = meshed(&folder, &options) else { continue };
         assert_eq!(counts["open_node_twice"], 0, "{options}");
         seas += 1;
         for (solver, rules) in [
@@ -144,7 +129,6 @@ fn places_are_counted_and_mended_as_the_files_have_them() {
             let Some((after, summary)) = meshed(&folder, &format!("{options} --repair-for {solver}")) else {
                 continue;
             };
-            let after = after.counts();
             let left: usize = rules.iter().map(|rule| after[rule]).sum();
             let said = summary["repaired"]["left"].as_u64().unwrap() as usize;
             assert!(
