@@ -126,8 +126,11 @@ pub use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 pub use meshbrush_render::render::Image;
 #[doc(inline)]
 pub use meshbrush_render::render::export::{ExportFormat, UnknownEnding};
-pub use meshbrush_render::render::furniture::{Furniture, NoRoom, UnknownFurniture};
+pub use meshbrush_render::render::furniture::{
+    Furniture, Legend, LegendBody, LegendRow, LegendScale, NoRoom, UnknownFurniture,
+};
 pub use meshbrush_render::render::look::{Look, MapPlace};
+pub use meshbrush_render::render::overlay::{OverlayColors, PictureOverlay, PixelColors};
 pub use meshbrush_render::render::picture_size::{
     LARGEST_PICTURE, PaperSize, PaperUnit, PictureGround, PictureSize, SizeError, UnknownGround,
 };

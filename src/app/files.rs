@@ -11,7 +11,7 @@ use meshbrush_kit::kit::Keymap;
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, cancelled, exported, listed};
 use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
 use meshbrush_kit::kit::export_set::ExportSet;
-use meshbrush_kit::kit::mesh_export::MeshExport;
+use meshbrush_kit::kit::mesh_export::{MeshExport, OverlayMaker};
 use meshbrush_kit::kit::session::Session;
 
 use meshbrush_core::document::{
@@ -173,14 +173,15 @@ pub fn import_keys(background: &mut Background, path: &Path) {
     });
 }
 
-/// Writes the mesh on the screen with h̄ at its nodes, or a picture of all of it in the colours of the view,
-/// in space where the view is.
+/// Writes the mesh on the screen with h̄ at its nodes, or a picture of all of it in the colours of the view
+/// or of an overlay, in space where the view is.
 ///
 /// # Errors
 /// Fails with a sentence when it is clear at once that nothing can be written there.
 pub fn export(
     session: &Session,
     view: &View,
+    overlay: Option<OverlayMaker>,
     background: &mut Background,
     path: &Path,
 ) -> Result<(), String> {
@@ -190,7 +191,8 @@ pub fn export(
     if let Some(problem) = format.files(path).iter().find_map(blocked) {
         return Err(problem);
     }
-    let (mesh, file) = (MeshExport::of(session, view, format), path.to_owned());
+    let mesh = MeshExport::of(session, view, format).with_overlay(overlay);
+    let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| match mesh.write(&file, meter) {
         Ok((files, cells)) => {
             let [squares, triangles] = cells.map(|count| format::count(count as u64));

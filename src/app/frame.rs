@@ -284,8 +284,7 @@ impl App {
                 triangles: self.session.triangle_count(),
                 figures: format.and_then(|format| self.export_figures.of(&self.session, &self.view, format)),
                 settings: self.session.document().settings(),
-                coordinates: self.view.file_coordinates,
-                picture: self.view.picture,
+                view: &self.view,
                 reads: &reads,
             };
             self.dialogs.show_file(ctx, &facts, commands);

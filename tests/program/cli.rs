@@ -108,6 +108,38 @@ fn every_ending_is_written_and_the_files_agree() {
 }
 
 #[test]
+fn pictures_are_coloured_by_a_measure_with_its_legend() {
+    let folder = Folder::new("cli-color-by");
+    let mesh = diamond(0.25);
+    for (by, title, is_graded) in [
+        ("levels", "Level, diameter, count", true),
+        ("target", "h̄ by level", true),
+        ("target-ratio", "Longest edge / h̄", true),
+        ("smallest_angle", "Smallest angle", false),
+        ("triangles_at_node", "Triangles at a node", false),
+    ] {
+        let ran = folder.run(format!("mesh {mesh} -o m.svg --furniture legend --color-by {by}"));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let svg = folder.read("m.svg");
+        assert!(svg.contains(&format!("<title>{title}</title>")), "{by}");
+        let fills = svg.matches("<path fill=\"#").count() + svg.matches("<path transform").count();
+        assert!(fills > if is_graded { 4 } else { 0 }, "{by}: {fills}");
+        assert_eq!(svg.contains("id=\"level-"), by == "levels", "{by}");
+    }
+    for (options, sentence) in [
+        ("--color-by time_step", "--color-by time_step: no triangle has a time step"),
+        (
+            "--color-by angle",
+            "--color-by: “angle” is nothing that triangles can be coloured by; use levels, target",
+        ),
+        ("--color-by edge_ratio --view space", "--color-by with --view space: a view in space shows levels"),
+    ] {
+        let ran = folder.run(format!("mesh {mesh} -o m.png {options}"));
+        assert!(ran.status == 2 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+}
+
+#[test]
 fn furniture_that_a_picture_cannot_have_is_said() {
     let folder = Folder::new("cli-furniture");
     let note = "There is no arrow to the north: the document does not lie on the Earth.";

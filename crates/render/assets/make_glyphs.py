@@ -11,7 +11,9 @@ from fontTools.ttLib import TTFont
 
 HERE = pathlib.Path(__file__).parent
 FONT = HERE.parents[1] / "ui/assets/fonts/Inter-Regular.ttf"
-LETTERS = sorted(chr(code) for code in [*range(0x20, 0x7F), *map(ord, "°²µ·×–′″−≈")])
+# Of furniture, and of the names of layers: Latin and Greek letters, marks of punctuation and the bar of h̄.
+RANGES = [(0x20, 0x7E), (0xA1, 0x17F), (0x386, 0x3CE), (0x2010, 0x2027), (0x2032, 0x2033)]
+OTHERS = "\u0304−≈≤≥→"
 HEAD = """\
 # Outlines of Inter Regular, Copyright 2016 The Inter Project Authors, SIL Open Font License 1.1.
 # Written by make_glyphs.py. A line has a letter as a number, its advance, and its outline: M x y, L x y,
@@ -48,11 +50,12 @@ def main():
     glyphs, names = font.getGlyphSet(), font.getBestCmap()
     scale = 1000 / font["head"].unitsPerEm
     lines = []
-    for letter in LETTERS:
-        glyph = glyphs[names[ord(letter)]]
+    codes = {code for first, last in RANGES for code in range(first, last + 1)} | set(map(ord, OTHERS))
+    for code in sorted(codes & names.keys()):
+        glyph = glyphs[names[code]]
         pen = Outline(glyphs, scale)
         glyph.draw(pen)
-        lines.append(f"{ord(letter)} {round(glyph.width * scale)} {' '.join(pen.parts)}".rstrip())
+        lines.append(f"{code} {round(glyph.width * scale)} {' '.join(pen.parts)}".rstrip())
     (HERE / "glyphs.txt").write_text(HEAD + "\n".join(lines) + "\n")
 
 

@@ -10,11 +10,12 @@ mod level_legend;
 mod menu;
 mod navigation;
 mod overlay;
-mod overlay_palette;
+mod overlay_data;
+mod overlay_legend;
+mod overlay_picture;
 mod press;
 mod price;
 mod quality_colors;
-mod quality_legend;
 mod relief_colors;
 mod space;
 mod toast;
@@ -24,8 +25,9 @@ use eframe::egui::{self, Context, CursorIcon, Event, Id, Key, Popup, Rect, Respo
 use glam::DVec2;
 
 pub use gpu::{CanvasGpu, canvas_image};
+use meshbrush_render::colormap::overlay_palette::OverlayPalette;
 use overlay::OverlayColors;
-use overlay_palette::OverlayPalette;
+pub use overlay_picture::overlay_of_picture;
 use press::{begin_gesture, pen_pressure};
 pub use space::space_sight;
 pub use toast::Toast;

@@ -1,25 +1,16 @@
 //! The field as colours, in place of those of the levels. They are computed on another thread: sampling many
 //! layers takes longer than a frame.
 
-use std::sync::Arc;
-
 use super::super::contours::pixels_over;
-use super::overlay_palette::OverlayPalette;
-use super::quality_colors::QualityData;
+use super::overlay_data::OverlayData;
 use super::relief_colors::ReliefColors;
-use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::layers::{DepthSurface, Layer, LevelCache, PaintLayers, SizeField};
-use meshbrush_core::raster::Raster;
-use meshbrush_core::surface::SurfaceRule;
 use meshbrush_kit::kit::derivation::Derived;
 use meshbrush_kit::kit::jobs::{Jobs, Slot, Wanted};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Extract, Limits};
+use meshbrush_render::colormap::overlay_palette::OverlayPalette;
 use meshbrush_render::scene::{Camera, Overlay};
-use meshbrush_study::pixels::PixelTriangles;
-use meshbrush_study::relief::{depth_differences, surface_differences};
 
 /// The data from which colours are made.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +32,7 @@ pub(super) struct OverlayState {
 
 /// What the colours of an overlay are found from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum OverlaySource {
+pub(super) enum OverlaySource {
     /// The size field, at the pixels of a raster over the domain.
     Field,
     /// The data of layers, pixel by pixel of the screen.
@@ -54,7 +45,7 @@ enum OverlaySource {
 }
 
 impl OverlaySource {
-    fn of(kind: FieldOverlay) -> Self {
+    pub(super) fn of(kind: FieldOverlay) -> Self {
         match kind {
             FieldOverlay::None | FieldOverlay::Risk | FieldOverlay::Target | FieldOverlay::Layer => {
                 Self::Field
@@ -74,6 +65,16 @@ impl OverlaySource {
 }
 
 impl OverlayState {
+    /// Returns the state of colours over a rectangle that nobody keeps.
+    pub(super) fn once(
+        kind: FieldOverlay,
+        domain: Rect,
+        (bounds, size): (Rect, [u32; 2]),
+        palette: OverlayPalette,
+    ) -> Self {
+        Self { kind, document: 0, mesh: 0, is_derived: false, domain, bounds, size, palette }
+    }
+
     fn new(kind: FieldOverlay, session: &Session, palette: OverlayPalette, camera: &Camera) -> Self {
         let (document, follower) = (session.document(), session.follower());
         let domain = document.settings().domain.bounds;
@@ -172,128 +173,13 @@ fn colors_of(
     state: OverlayState,
     session: &Session,
 ) -> impl FnOnce(&Wanted) -> Option<Pixels> + Send + 'static {
-    let (document, follower) = (session.document(), session.follower());
-    let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
-    let field = follower.shared_field();
-    let source = OverlaySource::of(state.kind);
-    let reads_mesh = matches!(source, OverlaySource::Triangles | OverlaySource::Comparison);
-    let mesh = reads_mesh.then(|| follower.shared_mesh());
-    let derived = session.derived().filter(|_| source == OverlaySource::Comparison);
-    let derived = derived.map(Derived::shared_extract);
-    let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
-    let settings = follower.settings();
-    let (domain, rule, limits) = (follower.domain().clone(), settings.rule, settings.limits());
-    let surface = follower.surface().cloned();
-    let quality = QualityData::of(session);
+    let is_comparison = OverlaySource::of(state.kind) == OverlaySource::Comparison;
+    let derived = session.derived().filter(|_| is_comparison).map(Derived::shared_extract);
+    let data = OverlayData::of(session, state.kind);
     move |wanted| {
-        let OverlayState { kind, bounds, size, palette, .. } = &state;
-        let goes_on = &|| wanted.goes_on();
-        let sampled = || field.sampled_while(&paint, *bounds, *size, goes_on);
-        let extract = || derived.or_else(|| Some(Arc::new(mesh.as_ref()?.extract().into_owned())));
-        let triangles = || Some(PixelTriangles::new(mesh.as_ref()?, *bounds, *size));
-        let rgba = match kind {
-            FieldOverlay::Age => {
-                let ages = ages?;
-                triangles()?.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
-            }
-            FieldOverlay::Forced => {
-                let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
-                    .with_surface(surface.as_deref());
-                forced_colors(&triangles()?, &criterion, &limits, palette, goes_on)
-            }
-            FieldOverlay::Slack => {
-                let (triangles, mut squares) = (triangles()?, LevelCache::default());
-                triangles.colors(goes_on, palette.neutral(), |id| {
-                    palette.slack(triangles.slack(id, &field, &paint, &mut squares))
-                })
-            }
-            FieldOverlay::DepthError => depth_error_colors(&layers, &*extract()?, &state, goes_on),
-            FieldOverlay::SurfaceError => {
-                surface_error_colors(surface.as_deref(), &*extract()?, &state, goes_on)
-            }
-            FieldOverlay::SmallestAngle
-            | FieldOverlay::LargestAngle
-            | FieldOverlay::EdgeRatio
-            | FieldOverlay::TargetRatio
-            | FieldOverlay::TimeStep
-            | FieldOverlay::Valence => quality.colors(&*extract()?, &state, goes_on),
-            FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
-            FieldOverlay::Layer => {
-                sampled().map(|(_, layers)| layers.into_iter().map(|layer| palette.layer(layer)).collect())
-            }
-            FieldOverlay::Target => sampled().map(|(target, _)| target_colors(&field, &target, palette)),
-            // `start` finds those of data in slices, and nobody asks for none.
-            FieldOverlay::None | FieldOverlay::Depth | FieldOverlay::Surface => None,
-        };
-        Some(Pixels { rgba: rgba? })
+        let rgba = data.colors(&state, derived.as_deref(), &|| wanted.goes_on())?;
+        Some(Pixels { rgba })
     }
-}
-
-fn forced_colors(
-    triangles: &PixelTriangles<'_>,
-    criterion: &RefinementCriterion<'_>,
-    limits: &Limits,
-    palette: &OverlayPalette,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<[u8; 4]>> {
-    let color = |id| palette.forced(triangles.is_forced(id, criterion, limits));
-    triangles.colors(goes_on, palette.neutral(), color)
-}
-
-/// `None` where `goes_on` says at the beginning of a row that nobody wants the colours any more.
-fn risk_colors(
-    layers: &[Layer],
-    paint: &PaintLayers,
-    state: &OverlayState,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<[u8; 4]>> {
-    let table: [[u8; 4]; 256] = std::array::from_fn(|i| state.palette.risk(i as u8));
-    let grid = Raster::filled(state.bounds, state.size, 0u8);
-    let centers = grid.pixel_centers();
-    let risk = |point| {
-        let visible = layers.iter().filter(|layer| layer.visible);
-        visible.filter_map(|layer| layer.risk_at(paint, point)).fold(0.0, f64::max)
-    };
-    let color = |(x, y)| table[(risk(centers(x, y)) * 255.0) as u8 as usize];
-    grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| color((x, y)))).collect()
-}
-
-/// Returns how far the mesh is from the depths; neutral beyond it, and without depths.
-fn depth_error_colors(
-    layers: &[Layer],
-    mesh: &Extract,
-    OverlayState { bounds, size, palette, .. }: &OverlayState,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<[u8; 4]>> {
-    let surface = DepthSurface::of(layers);
-    let depths = surface.as_ref().and_then(|surface| surface.depths_at_nodes(mesh.view()).ok());
-    let Some((surface, depths)) = surface.zip(depths) else { return Some(neutral(*size, palette)) };
-    let differences = depth_differences(mesh.view(), &depths, &surface, (*bounds, *size), goes_on)?;
-    Some(differences.values().iter().map(|&difference| palette.depth_error(difference)).collect())
-}
-
-/// Returns how far the mesh is from surfaces; neutral beyond it, and without a surface.
-fn surface_error_colors(
-    rule: Option<&SurfaceRule>,
-    mesh: &Extract,
-    OverlayState { bounds, size, palette, .. }: &OverlayState,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<[u8; 4]>> {
-    let Some(rule) = rule else { return Some(neutral(*size, palette)) };
-    let fit = rule.samples().fit(mesh.view());
-    let differences = surface_differences(mesh.view(), &fit, rule, (*bounds, *size), goes_on)?;
-    Some(differences.values().iter().map(|&share| palette.surface_error(share)).collect())
-}
-
-pub(super) fn neutral(size: [u32; 2], palette: &OverlayPalette) -> Vec<[u8; 4]> {
-    vec![palette.neutral(); size[0] as usize * size[1] as usize]
-}
-
-fn target_colors(field: &SizeField, target: &Raster, palette: &OverlayPalette) -> Vec<[u8; 4]> {
-    let center = target.pixel_centers();
-    let level =
-        |x, y| field.level_of_diameter(f64::from(target.get(x, y)), center(x, y)).unwrap_or(63).min(63);
-    target.all().pixels().map(|(x, y)| palette.level(level(x, y) as u8)).collect()
 }
 
 #[cfg(test)]

@@ -9,10 +9,13 @@ use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_render::colormap::overlay_palette::OverlayPalette;
+use meshbrush_render::render::overlay::{PictureOverlay, measure_overlay};
 use meshbrush_study::pixels::numbers_by_pixel;
 
-use super::overlay::{OverlayState, neutral};
-use super::overlay_palette::Opaque;
+use super::overlay::OverlayState;
+use super::overlay_data::neutral;
+use meshbrush_render::colormap::overlay_palette::Opaque;
 
 /// Returns the measure that an overlay shows, if it shows one.
 pub(super) fn measure_of(kind: FieldOverlay) -> Option<QualityMeasure> {
@@ -49,8 +52,28 @@ impl QualityData {
         state: &OverlayState,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Vec<Opaque>> {
-        let OverlayState { kind, bounds, size, palette, .. } = state;
-        let measure = measure_of(*kind)?;
+        let measure = measure_of(state.kind)?;
+        self.with_measures(mesh, measure, |measures| numbers(measures, measure, state, mesh, goes_on))
+    }
+
+    /// Returns the colours of all triangles by a measure, with their legend; `None` where none has it.
+    pub fn overlay(
+        &self,
+        mesh: &Extract,
+        measure: QualityMeasure,
+        palette: &OverlayPalette,
+        time: impl Fn(f64) -> String,
+    ) -> Option<PictureOverlay> {
+        self.with_measures(mesh, measure, |measures| measure_overlay(measures, measure, palette, time))
+    }
+
+    /// Calls `use_measures` with what measures the triangles of a mesh.
+    fn with_measures<T>(
+        &self,
+        mesh: &Extract,
+        measure: QualityMeasure,
+        use_measures: impl FnOnce(&TriangleMeasures<'_>) -> T,
+    ) -> T {
         let is_time = measure == QualityMeasure::TimeStep;
         let depths = is_time.then(|| NodeDepths::of(&self.layers, mesh.view())).flatten();
         let depths = depths.and_then(Result::ok);
@@ -59,21 +82,34 @@ impl QualityData {
         if let Some(NodeDepths { depths, .. }) = &depths {
             measures = measures.with_depths(depths, self.unit);
         }
-        // Time steps are compared with the least one.
-        let Some(scale) = (if is_time { measures.least_time_step() } else { Some(1.0) }) else {
-            return Some(neutral(*size, palette));
-        };
-        let mut squares = LevelCache::default();
-        let at_corners = (measure == QualityMeasure::Valence).then(|| measures.most_at_corners());
-        let number = |triangle: usize| match &at_corners {
-            Some(counts) => Some(f64::from(counts[triangle])),
-            None => measures.of(measure, triangle, &mut squares),
-        };
-        let numbers = numbers_by_pixel(mesh.view(), (*bounds, *size), goes_on, number)?;
-        let color = |number: &f32| match number.is_nan() {
-            true => palette.neutral(),
-            false => palette.quality(measure, number / scale as f32),
-        };
-        Some(numbers.values().iter().map(color).collect())
+        use_measures(&measures)
     }
+}
+
+/// Returns the colours of a measure by pixel.
+fn numbers(
+    measures: &TriangleMeasures<'_>,
+    measure: QualityMeasure,
+    state: &OverlayState,
+    mesh: &Extract,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<Opaque>> {
+    let OverlayState { bounds, size, palette, .. } = state;
+    let is_time = measure == QualityMeasure::TimeStep;
+    // Time steps are compared with the least one.
+    let Some(scale) = (if is_time { measures.least_time_step() } else { Some(1.0) }) else {
+        return Some(neutral(*size, palette));
+    };
+    let mut squares = LevelCache::default();
+    let at_corners = (measure == QualityMeasure::Valence).then(|| measures.most_at_corners());
+    let number = |triangle: usize| match &at_corners {
+        Some(counts) => Some(f64::from(counts[triangle])),
+        None => measures.of(measure, triangle, &mut squares),
+    };
+    let numbers = numbers_by_pixel(mesh.view(), (*bounds, *size), goes_on, number)?;
+    let color = |number: &f32| match number.is_nan() {
+        true => palette.neutral(),
+        false => palette.quality(measure, number / scale as f32),
+    };
+    Some(numbers.values().iter().map(color).collect())
 }

@@ -3,13 +3,14 @@
 
 use std::sync::Arc;
 
-use super::overlay::{OverlayState, Pixels, neutral};
-use super::overlay_palette::{Opaque, lit};
+use super::overlay::{OverlayState, Pixels};
+use super::overlay_data::neutral;
 use meshbrush_core::layers::{DepthSurface, Layer};
 use meshbrush_core::surface::SurfaceRule;
 use meshbrush_kit::kit::jobs::Slice;
 use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::mesh::Progress;
+use meshbrush_render::colormap::overlay_palette::{Opaque, lit};
 use meshbrush_study::relief::{Relief, ReliefPixel, ReliefSampling};
 
 /// The light on an isobath, and the most on any ground.
@@ -132,10 +133,10 @@ mod tests {
     use meshbrush_mesh::geometry::Rect;
 
     use super::*;
-    use crate::app::canvas::overlay_palette::OverlayPalette;
     use crate::app::files::example;
     use meshbrush_kit::kit::session::Session;
     use meshbrush_kit::kit::view::View;
+    use meshbrush_render::colormap::overlay_palette::OverlayPalette;
 
     #[test]
     fn a_level_sea_has_the_colours_of_its_depths() {

@@ -2,9 +2,10 @@
 
 use eframe::egui::{Align, Context, Layout, Ui};
 
-use meshbrush_kit::kit::FrameState;
 use meshbrush_kit::kit::command::{Command, ShellCommand, ViewCommand};
-use meshbrush_kit::kit::picture_choices::{GroundChoice, PictureChoices, WidthIn};
+use meshbrush_kit::kit::picture_choices::{GroundChoice, PictureChoices, PictureColors, WidthIn};
+use meshbrush_kit::kit::view::{FieldOverlay, View};
+use meshbrush_kit::kit::{FrameState, remark};
 use meshbrush_render::render::picture_size::{LARGEST_PICTURE, PictureSize};
 use meshbrush_ui::widgets::{
     ActionButton, ButtonKind, NumberRow, dialog, dialog_title, segmented, toggle_row,
@@ -21,7 +22,7 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.set_width(WIDTH);
         dialog_title(ui, "Exported pictures");
         ui.add_space(8.0);
-        rows(ui, state.view.picture, commands);
+        rows(ui, state.view, commands);
         ui.add_space(12.0);
         let button = ActionButton::new("Done").kind(ButtonKind::Main);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.add(button)).inner.clicked()
@@ -31,9 +32,9 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
 }
 
-/// Shows size, ground and furniture.
-pub fn rows(ui: &mut Ui, before: PictureChoices, commands: &mut Vec<Command>) {
-    let mut choices = before;
+/// Shows size, colours, ground and furniture.
+pub fn rows(ui: &mut Ui, view: &View, commands: &mut Vec<Command>) {
+    let mut choices = view.picture;
     segmented(
         ui,
         "Width in",
@@ -41,6 +42,15 @@ pub fn rows(ui: &mut Ui, before: PictureChoices, commands: &mut Vec<Command>) {
         &[(WidthIn::Pixels, "Pixels"), (WidthIn::Paper, "Millimetres")],
     );
     size_rows(ui, &mut choices);
+    segmented(
+        ui,
+        "Colours of pictures",
+        &mut choices.colors,
+        &[(PictureColors::AsShown, "As shown"), (PictureColors::Levels, "Levels")],
+    );
+    if let Some(text) = colors_in_words(view) {
+        remark(ui, &text);
+    }
     segmented(
         ui,
         "Ground of pictures",
@@ -52,13 +62,25 @@ pub fn rows(ui: &mut Ui, before: PictureChoices, commands: &mut Vec<Command>) {
         ],
     );
     let furniture = &mut choices.furniture;
-    toggle_row(ui, "Legend of levels", &mut furniture.legend);
+    toggle_row(ui, "Legend", &mut furniture.legend);
     toggle_row(ui, "Axes", &mut furniture.axes);
     toggle_row(ui, "Scale", &mut furniture.scale);
     toggle_row(ui, "North arrow", &mut furniture.north);
-    if choices != before {
+    if choices != view.picture {
         commands.push(Command::from(ViewCommand::Picture(choices)));
     }
+}
+
+/// Says what colours are shown, where that is not what a person may expect.
+fn colors_in_words(view: &View) -> Option<String> {
+    let overlay = view.overlay.name();
+    if view.overlay == FieldOverlay::None || view.picture.colors == PictureColors::Levels {
+        return None;
+    }
+    Some(match view.space.is_on {
+        true => format!("A view in space shows levels, also where the plan shows “{overlay}”."),
+        false => format!("Shows “{overlay}” with its own legend."),
+    })
 }
 
 fn size_rows(ui: &mut Ui, choices: &mut PictureChoices) {

@@ -6,8 +6,10 @@ use std::sync::Arc;
 use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
+use crate::app::canvas::overlay_of_picture;
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
+use crate::app::features::statistics::Statistics;
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT, opened_kind};
 use crate::app::host;
 use crate::app::journal::JournalKeeper;
@@ -21,6 +23,7 @@ use meshbrush_kit::kit::command::{Command, FileCommand, LayerCommand, Opened};
 use meshbrush_kit::kit::export_set::ExportSet;
 use meshbrush_kit::kit::home::{self, Home, Loss};
 use meshbrush_kit::kit::{FileRequest, look_at, raster_frame};
+use meshbrush_render::render::export::ExportFormat;
 
 impl App {
     /// Opens an example, and shows what it is about.
@@ -122,7 +125,10 @@ impl App {
 
     /// Writes the mesh to a file, which joins those to write again.
     fn export(&mut self, path: &Path) {
-        let started = files::export(&self.session, &self.view, &mut self.background, path);
+        let is_picture = matches!(ExportFormat::from_path(path), Ok(ExportFormat::Png | ExportFormat::Svg));
+        let courant = self.features.get::<Statistics>().courant();
+        let overlay = is_picture.then(|| overlay_of_picture(&self.session, &self.view, courant)).flatten();
+        let started = files::export(&self.session, &self.view, overlay, &mut self.background, path);
         if started.is_ok() {
             self.project.exports.note(path);
         }

@@ -30,6 +30,7 @@ mod numbers;
 mod open_domain;
 mod orientation;
 mod other_window;
+mod overlay_pictures;
 mod overlays;
 mod painted;
 mod palette;

@@ -7,6 +7,7 @@
 mod args;
 pub mod build;
 pub mod check;
+mod color_by;
 mod command_line;
 mod depths;
 pub mod details;

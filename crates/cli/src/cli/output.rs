@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::build::FinishedMesh;
+use super::color_by::{ColorBy, UnknownColorBy};
 use super::failure::Failure;
 use super::space_look::RequestedSpace;
 use super::standard_output::StandardOutput;
@@ -15,6 +16,7 @@ use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{KeyFault, MeshData, Meter, PartitionFigures, ThirdCoordinate, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::Number;
+use meshbrush_render::colormap::overlay_palette::OverlayPalette;
 use meshbrush_render::colormap::{Colormap, LevelColors, UnknownColormap};
 use meshbrush_render::render::export::ExportFormat;
 use meshbrush_render::render::furniture::{Furniture, UnknownFurniture};
@@ -266,6 +268,7 @@ pub struct RequestedLook {
     size: PictureSize,
     edges: bool,
     colormap: Colormap,
+    color_by: ColorBy,
     ground: PictureGround,
     furniture: Option<Furniture>,
     space: Option<RequestedSpace>,
@@ -285,12 +288,15 @@ impl RequestedLook {
         })?;
         let usage = |option: &str, error: &dyn Display| Failure::Usage(format!("--{option}: {error}"));
         let colormap = typed.colormap.parse().map_err(|error: UnknownColormap| usage("colormap", &error))?;
+        let color_by = typed.color_by.as_deref().map(str::parse).transpose();
+        let color_by = color_by.map_err(|error: UnknownColorBy| usage("color-by", &error))?;
         let ground = typed.ground.as_deref().map(str::parse).transpose();
         let ground = ground.map_err(|error: UnknownGround| usage("ground", &error))?;
         let furniture = typed.furniture.as_deref().map(str::parse).transpose();
         let furniture = furniture.map_err(|error: UnknownFurniture| usage("furniture", &error))?;
         let ground = ground.unwrap_or_else(|| theme(typed.light));
-        Ok(Self { size, edges: !typed.no_edges, colormap, ground, furniture, space: None })
+        let (edges, color_by) = (!typed.no_edges, color_by.unwrap_or_default());
+        Ok(Self { size, edges, colormap, color_by, ground, furniture, space: None })
     }
 
     /// Returns the look that an output of a recipe describes.
@@ -306,6 +312,10 @@ impl RequestedLook {
         let colormap = saved.colormap.as_deref().unwrap_or(PICTURE_COLORMAP).parse();
         let colormap =
             colormap.map_err(|error: UnknownColormap| KeyFault::value("colormap", error.to_string()))?;
+        let color_by = saved.color_by.as_deref().map(str::parse).transpose();
+        let color_by =
+            color_by.map_err(|error: UnknownColorBy| KeyFault::value("color_by", error.to_string()))?;
+        let color_by = color_by.unwrap_or_default();
         let ground = saved.ground.as_deref().map(str::parse).transpose();
         let ground = ground.map_err(|error: UnknownGround| KeyFault::value("ground", error.to_string()))?;
         if ground.is_some() && saved.light.is_some() {
@@ -316,13 +326,23 @@ impl RequestedLook {
             furniture.map_err(|error: UnknownFurniture| KeyFault::value("furniture", error.to_string()))?;
         let ground = ground.unwrap_or_else(|| theme(saved.light.unwrap_or(false)));
         let edges = saved.edges.unwrap_or(true);
-        let look = Self { size, edges, colormap, ground, furniture, space: None };
-        Ok(look.in_space(RequestedSpace::of_saved(saved)?))
+        let look = Self { size, edges, colormap, color_by, ground, furniture, space: None };
+        let look = look.in_space(RequestedSpace::of_saved(saved)?);
+        match look.levels_only() {
+            Some(sentence) => Err(KeyFault::key("color_by", sentence)),
+            None => Ok(look),
+        }
     }
 
     /// Returns this look in space, or with `None` that of the plan.
     pub fn in_space(self, space: Option<RequestedSpace>) -> Self {
         Self { space, ..self }
+    }
+
+    /// Returns a sentence where other colours than those of levels are asked for, and cannot be.
+    pub fn levels_only(&self) -> Option<&'static str> {
+        let is_asked = self.is_in_space() && self.color_by != ColorBy::Levels;
+        is_asked.then_some("a view in space shows levels; leave it out, or draw the plan.")
     }
 
     /// Returns whether it is a view in space.
@@ -333,16 +353,20 @@ impl RequestedLook {
     /// Returns the look of a mesh as files get it.
     ///
     /// # Errors
-    /// Fails when it is in space, and no node has a height.
+    /// Fails when it is in space, and no node has a height, and when triangles do not have what they are to
+    /// be coloured by.
     pub fn for_extract(&self, finished: &FinishedMesh, extract: &Extract) -> Result<Look, Failure> {
         let space = self.space.map(|space| space.for_extract(finished, extract)).transpose()?;
-        Ok(Look { space, ..self.for_mesh(finished) })
+        let look = self.for_mesh(finished);
+        let palette = OverlayPalette::new(self.ground.theme(), look.level_colors.clone());
+        let overlay = self.color_by.overlay(finished, extract, &palette, &look.level_colors)?;
+        Ok(Look { space, overlay, ..look })
     }
 
     /// Returns the look of the plan, with the colours spread over the levels of a mesh, and an arrow to the
     /// north in the plane of a projection.
     pub fn for_mesh(&self, finished: &FinishedMesh) -> Look {
-        let Self { size, edges, colormap, ground, furniture, space: _ } = *self;
+        let Self { size, edges, colormap, color_by: _, ground, furniture, space: _ } = *self;
         let mesh = finished.mesh();
         let deepest = mesh.level_counts().len() as u8 - 1;
         let projection = finished.domain().projection;
@@ -355,6 +379,7 @@ impl RequestedLook {
             furniture,
             place: MapPlace { projection, unit: finished.unit(), degrees: Some(DegreeStyle::default()) },
             space: None,
+            overlay: None,
         }
     }
 }
@@ -398,6 +423,7 @@ mod tests {
             ("--dpi 5", "--dpi: 5 dots per inch are not possible"),
             ("--ground green", "--ground: “green” is no ground"),
             ("--furniture grid", "--furniture: “grid” is none of"),
+            ("--color-by angle", "--color-by: “angle” is nothing that triangles can be coloured by"),
             ("--light --ground white", "cannot be used with"),
         ] {
             let refused = look(options).unwrap_err();

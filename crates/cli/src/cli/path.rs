@@ -86,7 +86,7 @@ pub fn run(
     let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
     let mut export = export.at_speed(speed, unit);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
-    let look = look.for_mesh(&finished);
+    let look = look.for_extract(&finished, &extract)?;
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     for output in &outputs {
         let coordinates = output.coordinates(typed, &finished);

@@ -71,6 +71,9 @@ impl RequestedFiles {
         let format = typed.format.as_deref();
         let output = |path: &PathBuf| Output::new(path, format, typed.binary);
         let outputs = typed.output.iter().map(output).collect::<Result<Vec<_>, _>>()?;
+        if let Some(sentence) = look.levels_only() {
+            return Err(Failure::Usage(format!("--color-by with --view space: {sentence}")));
+        }
         if look.is_in_space() && outputs.iter().any(Output::is_vector_picture) {
             return Err(Failure::Usage(format!("--view space: {NO_SVG_IN_SPACE}.")));
         }
@@ -166,6 +169,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         edges,
         dpi,
         colormap,
+        color_by,
         light,
         ground,
         furniture,
@@ -190,6 +194,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         ("size", size.is_some()),
         ("edges", edges.is_some()),
         ("colormap", colormap.is_some()),
+        ("color_by", color_by.is_some()),
         ("dpi", dpi.is_some()),
         ("light", light.is_some()),
         ("ground", ground.is_some()),

@@ -1,17 +1,18 @@
 //! `.svg`: the mesh as an exact vector drawing in a small file.
 //!
-//! One path for the triangles of each level and one for their edges. Coordinates are whole numbers relative
-//! to the previous point: lattice coordinates divided by the largest power of two that divides all nodes of
-//! the path, which takes few digits and is exact at any magnification. Edges get thinner with their
-//! triangles, so that a dense region shows the colour of its level and not black.
+//! One path for the triangles of each level, or of each colour, and one for their edges. Coordinates are
+//! whole numbers relative to the previous point: lattice coordinates divided by the largest power of two that
+//! divides all nodes of the path, which takes few digits and is exact at any magnification. Edges get thinner
+//! with their triangles, so that a dense region shows the colour of its level and not black.
 
 use std::io::{self, Write};
 
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use glam::DVec2;
 
 use super::Provenance;
 use meshbrush_mesh::geometry::LatticePoint;
-use meshbrush_mesh::mesh::{Extract, NodeId, bisection_edge_length};
+use meshbrush_mesh::mesh::{Extract, NodeId, Triangle, bisection_edge_length};
 use meshbrush_mesh::text::xml_text;
 
 /// Where the mesh is on a page with other shapes, in pixels.
@@ -43,6 +44,17 @@ pub enum ShapePaint {
     Stroke([u8; 3], f64),
 }
 
+/// What triangles are filled with. Colours are red, green, blue and opacity.
+#[derive(Clone, Copy, Debug)]
+pub enum SvgFills<'a> {
+    /// The colours of levels.
+    Levels(&'a [[u8; 4]; 64]),
+    /// The colours of triangles, one for each.
+    Triangles(&'a [[u8; 4]]),
+    /// A picture of the whole mesh, as the bytes of a `.png`.
+    Picture(&'a [u8]),
+}
+
 /// Size and colours of the drawing.
 #[derive(Clone, Copy, Debug)]
 pub struct SvgStyle<'a> {
@@ -52,8 +64,8 @@ pub struct SvgStyle<'a> {
     pub unit: Option<(f64, &'static str)>,
     /// Where the mesh is on the page; without it, the mesh fills the page.
     pub map: Option<SvgMap>,
-    /// Red, green, blue and opacity by level.
-    pub level_colors: &'a [[u8; 4]; 64],
+    /// What triangles are filled with.
+    pub fills: SvgFills<'a>,
     /// Red, green and blue behind the mesh; nothing without it.
     pub background: Option<[u8; 3]>,
     /// Whether edges are drawn, in black with an opacity of one half.
@@ -108,7 +120,11 @@ pub fn write(
         let scale = 1.0 / page.units_per_px;
         writeln!(out, "<g id=\"map\" transform=\"translate({} {}) scale({scale})\">", at.x, at.y)?;
     }
-    write_levels(out, mesh, &page, style)?;
+    match style.fills {
+        SvgFills::Levels(colors) => write_levels(out, mesh, &page, colors)?,
+        SvgFills::Triangles(colors) => write_colors(out, mesh, &page, colors)?,
+        SvgFills::Picture(file) => write_picture(out, &page, file)?,
+    }
     if style.edges {
         write_edges(out, mesh, &page)?;
     }
@@ -189,27 +205,76 @@ fn write_line(out: &mut impl Write, points: &[DVec2], [r, g, b]: [u8; 3], width:
     writeln!(out, "\"/>")
 }
 
-fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
+fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, colors: &[[u8; 4]; 64]) -> io::Result<()> {
     // One pass over the mesh for each level: lists by level would be a second copy of it.
     for (level, _) in mesh.level_counts().into_iter().enumerate().filter(|(_, count)| *count > 0) {
-        let [r, g, b, _] = style.level_colors[level.min(63)];
+        let [r, g, b, _] = colors[level.min(63)];
         let triangles = mesh.triangles().iter().filter(|triangle| triangle.level() as usize == level);
         let scale = page.scale_for(mesh, triangles.clone().flat_map(|triangle| triangle.vertices));
         write!(out, "<path id=\"level-{level}\"{} fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"", Transform(scale))?;
-        let mut pen = Pen::default();
-        for triangle in triangles {
-            let [a, b] = triangle.bisection_edge();
-            // The two legs are drawn and the bisection edge closes the path: legs are often horizontal or
-            // vertical, which is shorter.
-            let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node, scale));
-            pen.move_to(out, a)?;
-            pen.line_to(out, apex)?;
-            pen.line_to(out, b)?;
-            pen.close(out, a)?;
-        }
+        write_triangles(out, mesh, page, scale, triangles)?;
         writeln!(out, "\"/>")?;
     }
     Ok(())
+}
+
+/// Writes the corners of triangles.
+fn write_triangles<'a>(
+    out: &mut impl Write,
+    mesh: &Extract,
+    page: &Page,
+    scale: u32,
+    triangles: impl Iterator<Item = &'a Triangle>,
+) -> io::Result<()> {
+    let mut pen = Pen::default();
+    for triangle in triangles {
+        let [a, b] = triangle.bisection_edge();
+        // The two legs are drawn and the bisection edge closes the path: legs are often horizontal or
+        // vertical, which is shorter.
+        let [a, apex, b] = [a, triangle.apex(), b].map(|node| page.place(mesh, node, scale));
+        pen.move_to(out, a)?;
+        pen.line_to(out, apex)?;
+        pen.line_to(out, b)?;
+        pen.close(out, a)?;
+    }
+    Ok(())
+}
+
+/// How wide a line in its own colour is around a triangle, in pixels. Programs smooth each path by itself:
+/// without the line, the ground would be seen between two colours.
+const SEAM: f64 = 0.4;
+
+/// Writes the triangles of each colour, in the order of the colours.
+fn write_colors(out: &mut impl Write, mesh: &Extract, page: &Page, colors: &[[u8; 4]]) -> io::Result<()> {
+    let mut order: Vec<usize> = (0..mesh.triangles().len().min(colors.len())).collect();
+    order.sort_by_key(|&triangle| colors[triangle]);
+    for same in order.chunk_by(|&a, &b| colors[a] == colors[b]) {
+        let triangles = same.iter().map(|&triangle| &mesh.triangles()[triangle]);
+        let scale = page.scale_for(mesh, triangles.clone().flat_map(|triangle| triangle.vertices));
+        let [r, g, b, _] = colors[same[0]];
+        let color = format!("#{r:02x}{g:02x}{b:02x}");
+        let width = SEAM * page.units_per_px / f64::from(scale);
+        write!(
+            out,
+            "<path{} fill=\"{color}\" stroke=\"{color}\" stroke-width=\"{width:.2e}\" \
+             stroke-linejoin=\"round\" d=\"",
+            Transform(scale)
+        )?;
+        write_triangles(out, mesh, page, scale, triangles)?;
+        writeln!(out, "\"/>")?;
+    }
+    Ok(())
+}
+
+/// Writes a picture over the whole page of the mesh.
+fn write_picture(out: &mut impl Write, page: &Page, file: &[u8]) -> io::Result<()> {
+    let (width, height) = (page.width, page.height);
+    let text = BASE64_STANDARD.encode(file);
+    writeln!(
+        out,
+        "<image xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,{text}\"/>"
+    )
 }
 
 /// Writes each edge once, at the level of the finer one of its triangles. Widths are chosen in pixels and

@@ -20,8 +20,12 @@ use meshbrush_io::io::{
 use meshbrush_mesh::mesh::{Extract, Fingerprint, Mesh, MeshView};
 use meshbrush_render::render::export::ExportFormat;
 use meshbrush_render::render::look::Look;
+use meshbrush_render::render::overlay::PictureOverlay;
 use meshbrush_render::render::space_look::SpaceLook;
 use meshbrush_render::scene::NodeHeights;
+
+/// Makes the overlay of a picture of an extract; `None` where nobody wants it any more.
+pub type OverlayMaker = Box<dyn Fn(&Extract, &Meter) -> Option<PictureOverlay> + Send>;
 
 /// A mesh, and what its files get beside it.
 pub struct MeshExport {
@@ -37,6 +41,8 @@ pub struct MeshExport {
     coordinates: FileCoordinates,
     /// The view in space that a picture shows.
     space: Option<Space>,
+    /// Makes the overlay that a picture of the plan shows.
+    overlay: Option<OverlayMaker>,
 }
 
 /// What the files of a mesh will have in them.
@@ -91,7 +97,13 @@ impl MeshExport {
             look: view.picture_of(document.settings()),
             coordinates: view.file_coordinates,
             space: is_picture.then_some(view.space).filter(|space| space.is_on),
+            overlay: None,
         }
+    }
+
+    /// Lets a picture of the plan show an overlay in place of the levels.
+    pub fn with_overlay(self, overlay: Option<OverlayMaker>) -> Self {
+        Self { overlay, ..self }
     }
 
     /// Writes the files, and returns their names and the cells in them: squares, and triangles.
@@ -104,7 +116,11 @@ impl MeshExport {
         let (values, _) = self.values_at_nodes(extract.view())?;
         self.with_data(&extract, &values, meter, |placed, data| {
             let in_space = |space| self.look_in_space(&space, &extract);
-            let look = Look { space: self.space.and_then(in_space), ..self.look.clone() };
+            let space = self.space.and_then(in_space);
+            let overlay = self.overlay.as_ref().filter(|_| space.is_none());
+            let overlay = overlay.and_then(|make| make(&extract, meter));
+            meter.check()?;
+            let look = Look { space, overlay, ..self.look.clone() };
             let files = self.format.write(file, &self.mesh, placed, data, &look, meter)?;
             let squares = self.squares(placed, data);
             Ok((files, [squares, extract.triangles().len() - 2 * squares]))

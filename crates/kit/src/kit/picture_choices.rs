@@ -22,13 +22,25 @@ pub struct PictureChoices {
     pub dots_per_inch: f64,
     /// What is behind the mesh.
     pub ground: GroundChoice,
+    /// What the triangles are coloured by.
+    pub colors: PictureColors,
     /// What stands around the map.
     pub furniture: Furniture,
 }
 
 /// The choices as they are stored: whether the width is one on paper, the width in pixels and in millimetres,
-/// pixels of an inch, the ground, and the furniture.
-pub type KeptPictures = (bool, u32, f64, f64, String, String);
+/// pixels of an inch, the ground, the furniture, and whether the levels are shown in any case.
+pub type KeptPictures = (bool, u32, f64, f64, String, String, bool);
+
+/// What the triangles of a picture are coloured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PictureColors {
+    /// What the canvas shows: an overlay, or levels.
+    #[default]
+    AsShown,
+    /// Levels.
+    Levels,
+}
 
 /// In what the width of a picture is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +85,7 @@ impl Default for PictureChoices {
             width_mm: 160.0,
             dots_per_inch: PictureSize::USUAL_DOTS,
             ground: GroundChoice::AsShown,
+            colors: PictureColors::AsShown,
             furniture: Furniture::ALL,
         }
     }
@@ -81,21 +94,23 @@ impl Default for PictureChoices {
 impl PictureChoices {
     /// Returns the choices as they are stored.
     pub fn kept(&self) -> KeptPictures {
-        let Self { width_in, width_px, width_mm, dots_per_inch, ground, furniture } = *self;
-        let is_on_paper = width_in == WidthIn::Paper;
-        (is_on_paper, width_px, width_mm, dots_per_inch, ground.name().into(), furniture.to_string())
+        let Self { width_in, width_px, width_mm, dots_per_inch, ground, colors, furniture } = *self;
+        let (is_on_paper, shows_levels) = (width_in == WidthIn::Paper, colors == PictureColors::Levels);
+        let (ground, furniture) = (ground.name().into(), furniture.to_string());
+        (is_on_paper, width_px, width_mm, dots_per_inch, ground, furniture, shows_levels)
     }
 
     /// Returns choices that were stored; `None` where they have a value that nobody can choose.
     pub fn of_kept(
-        (is_on_paper, width_px, width_mm, dots_per_inch, ground, furniture): KeptPictures,
+        (is_on_paper, width_px, width_mm, dots_per_inch, ground, furniture, shows_levels): KeptPictures,
     ) -> Option<Self> {
         let is_length = |value: f64| value.is_finite() && value > 0.0;
         let is_size =
             (1..=LARGEST_PICTURE).contains(&width_px) && is_length(width_mm) && is_length(dots_per_inch);
         let (ground, furniture) = (GroundChoice::named(&ground)?, furniture.parse().ok()?);
         let width_in = if is_on_paper { WidthIn::Paper } else { WidthIn::Pixels };
-        is_size.then_some(Self { width_in, width_px, width_mm, dots_per_inch, ground, furniture })
+        let colors = if shows_levels { PictureColors::Levels } else { PictureColors::AsShown };
+        is_size.then_some(Self { width_in, width_px, width_mm, dots_per_inch, ground, colors, furniture })
     }
 
     /// Returns the greatest width in millimetres at these pixels of an inch.
@@ -136,17 +151,20 @@ mod tests {
     fn choices_are_kept_and_impossible_ones_are_not_taken() {
         for furniture in [Furniture::NONE, Furniture::ALL, Furniture { legend: true, ..Furniture::NONE }] {
             for (ground, _) in GroundChoice::NAMES {
-                let choices =
-                    PictureChoices { width_in: WidthIn::Paper, ground, furniture, ..Default::default() };
-                assert_eq!(PictureChoices::of_kept(choices.kept()), Some(choices));
+                for colors in [PictureColors::AsShown, PictureColors::Levels] {
+                    let width_in = WidthIn::Paper;
+                    let choices =
+                        PictureChoices { width_in, ground, colors, furniture, ..Default::default() };
+                    assert_eq!(PictureChoices::of_kept(choices.kept()), Some(choices));
+                }
             }
         }
         let kept = PictureChoices::default().kept();
         for broken in [
-            (kept.0, 0, kept.2, kept.3, kept.4.clone(), kept.5.clone()),
-            (kept.0, kept.1, f64::NAN, kept.3, kept.4.clone(), kept.5.clone()),
-            (kept.0, kept.1, kept.2, kept.3, "pink".into(), kept.5.clone()),
-            (kept.0, kept.1, kept.2, kept.3, kept.4.clone(), "palms".into()),
+            (kept.0, 0, kept.2, kept.3, kept.4.clone(), kept.5.clone(), kept.6),
+            (kept.0, kept.1, f64::NAN, kept.3, kept.4.clone(), kept.5.clone(), kept.6),
+            (kept.0, kept.1, kept.2, kept.3, "pink".into(), kept.5.clone(), kept.6),
+            (kept.0, kept.1, kept.2, kept.3, kept.4.clone(), "palms".into(), kept.6),
         ] {
             assert_eq!(PictureChoices::of_kept(broken), None);
         }

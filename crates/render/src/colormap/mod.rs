@@ -3,6 +3,7 @@
 //! Colours are sRGB bytes: `[red, green, blue]`, or with an alpha of 255 after them.
 
 mod categories;
+pub mod overlay_palette;
 mod tables;
 
 use std::str::FromStr;

@@ -7,6 +7,7 @@ use super::furniture::{
     draw_sheet, without_premultiplication,
 };
 use super::north_arrow::{ArrowLines, north_arrow_in};
+use super::overlay::PictureOverlay;
 use super::picture_size::{LARGEST_PICTURE, PictureGround, PictureSize};
 use super::space_look::SpaceLook;
 use super::{Image, software};
@@ -36,6 +37,8 @@ pub struct Look {
     pub place: MapPlace,
     /// The view in space; the plan without it.
     pub space: Option<SpaceLook>,
+    /// What colours the triangles of the plan in place of their levels.
+    pub overlay: Option<PictureOverlay>,
 }
 
 /// What coordinates and lengths of a map are.
@@ -193,12 +196,57 @@ impl Look {
         let style = Style { edges: self.edges, ground: self.ground.rgba(), ..style };
         if let Some(space) = &self.space {
             let view = space.view_in(lattice, size);
-            software::draw_extract_in_space(extract, &space.heights, &view, &style)
-        } else if extract.is_patched() {
-            software::draw_extract(extract, &Self::camera(lattice, size), &style)
-        } else {
-            software::draw(mesh, &Self::camera(lattice, size), &style, None, &[])
+            return software::draw_extract_in_space(extract, &space.heights, &view, &style);
         }
+        let camera = Self::camera(lattice, size);
+        match &self.overlay {
+            Some(overlay) => {
+                let mut map = Self::draw_overlay(overlay, mesh, extract, &camera, style);
+                put_below(&mut map, self.ground.rgba());
+                map
+            }
+            None => Self::draw_plan(mesh, extract, &camera, &style),
+        }
+    }
+
+    fn draw_plan(mesh: &Mesh, extract: &Extract, camera: &Camera, style: &Style) -> Image {
+        match extract.is_patched() {
+            true => software::draw_extract(extract, camera, style),
+            false => software::draw(mesh, camera, style, None, &[]),
+        }
+    }
+
+    /// Returns the plan in the colours of an overlay, with nothing below the mesh.
+    fn draw_overlay(
+        overlay: &PictureOverlay,
+        mesh: &Mesh,
+        extract: &Extract,
+        camera: &Camera,
+        style: Style,
+    ) -> Image {
+        let style = Style { ground: [0; 4], ..style.under(overlay.neutral) };
+        let mut map = Self::draw_plan(mesh, extract, camera, &style);
+        let colors = overlay.on_map(extract.view(), camera.visible_world(), camera.size_px());
+        software::multiply_by(&mut map, camera, &colors.as_overlay());
+        map
+    }
+
+    /// Returns the overlay that the picture shows: a view in space shows levels.
+    pub(super) fn shown_overlay(&self) -> Option<&PictureOverlay> {
+        self.overlay.as_ref().filter(|_| self.space.is_none())
+    }
+
+    /// Returns the fills of the plan in the colours of an overlay, without edges and with nothing below them.
+    pub(super) fn fills_in_pixels(
+        &self,
+        overlay: &PictureOverlay,
+        mesh: &Mesh,
+        extract: &Extract,
+        size: [u32; 2],
+    ) -> Image {
+        let style = Style { edges: false, ..Style::light(self.level_colors.clone()) };
+        let camera = Self::camera(mesh.lattice(), size);
+        Self::draw_overlay(overlay, mesh, extract, &camera, style)
     }
 
     /// Returns the places of map and furniture; `None` where the map fills the picture.
@@ -246,7 +294,10 @@ impl Look {
         let lattice = mesh.lattice();
         let north = self.direction_to_north().filter(|_| furniture.north);
         SheetContent {
-            legend: furniture.legend.then(|| self.legend(mesh, extract)),
+            legend: furniture.legend.then(|| match self.shown_overlay() {
+                Some(overlay) => overlay.legend.clone(),
+                None => self.legend(mesh, extract),
+            }),
             axes: (furniture.axes && self.space.is_none()).then(|| self.place.axes(lattice)),
             bar: furniture.scale.then(|| self.place.bar(lattice)),
             north: north.map(|north| self.turned(lattice, north)),
@@ -256,11 +307,7 @@ impl Look {
 
     fn legend(&self, mesh: &Mesh, extract: &Extract) -> Legend {
         let levels = LevelLegend::new(&extract.level_counts(), |level| mesh.diameter(level), self.place.unit);
-        let color = |level: u32| {
-            let [r, g, b, _] = self.level_colors.of(level.min(63) as u8);
-            [r, g, b]
-        };
-        Legend { colors: levels.rows.iter().map(|row| color(row.level)).collect(), levels }
+        Legend::of_levels(levels, &self.level_colors)
     }
 
     /// Returns the height of the text around a map, in pixels.
@@ -271,4 +318,10 @@ impl Look {
         let [width, height] = self.bare_size(lattice).map(f64::from);
         (TEXT.0 * (width * height).sqrt()).max(TEXT.1)
     }
+}
+
+/// Puts a colour where a picture has nothing.
+fn put_below(image: &mut Image, ground: [u8; 4]) {
+    let blank = image.pixels_mut().iter_mut().filter(|[.., opacity]| *opacity == 0);
+    blank.for_each(|pixel| *pixel = ground);
 }

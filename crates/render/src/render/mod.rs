@@ -14,6 +14,7 @@ pub mod furniture;
 pub mod gpu;
 pub mod look;
 pub mod north_arrow;
+pub mod overlay;
 pub mod path_export;
 pub mod picture_size;
 mod skia;

@@ -1,5 +1,7 @@
 //! Pictures with furniture, measured.
 
+mod overlays;
+
 use std::f64::consts::PI;
 
 use glam::{DVec2, dvec2};
@@ -35,6 +37,7 @@ fn look(size: &str, place: MapPlace) -> Look {
         furniture: Some(Furniture::ALL),
         place,
         space: None,
+        overlay: None,
     }
 }
 

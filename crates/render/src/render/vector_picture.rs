@@ -6,7 +6,8 @@ use glam::DVec2;
 
 use super::furniture::{Sheet, shapes_of};
 use super::look::{Look, PATH_COLORS};
-use meshbrush_io::io::{Provenance, svg};
+use super::overlay::OverlayColors;
+use meshbrush_io::io::{Provenance, png, svg};
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Extract, Mesh};
 
@@ -26,11 +27,26 @@ impl Look {
         let (sheet, arrow) = (self.sheet(mesh, extract).map_err(io::Error::other)?, self.arrow(lattice));
         let shapes = sheet.as_ref().map(shapes_of).unwrap_or_default();
         let on_paper = self.size.on_paper;
+        let size = sheet.as_ref().map_or_else(|| self.bare_size(lattice), |sheet| sheet.map_size);
+        let pixels = match self.shown_overlay() {
+            Some(overlay) if matches!(overlay.colors, OverlayColors::Pixels(_)) => {
+                let image = self.fills_in_pixels(overlay, mesh, extract, size);
+                let mut file = Vec::new();
+                png::write(&mut file, image.size, &image.rgba)?;
+                file
+            }
+            _ => Vec::new(),
+        };
+        let fills = match self.shown_overlay().map(|overlay| &overlay.colors) {
+            None => svg::SvgFills::Levels(self.level_colors.as_table()),
+            Some(OverlayColors::Triangles(colors)) => svg::SvgFills::Triangles(colors),
+            Some(OverlayColors::Pixels(_)) => svg::SvgFills::Picture(&pixels),
+        };
         let style = svg::SvgStyle {
             size: sheet.as_ref().map_or_else(|| self.bare_size(lattice), |sheet| sheet.size),
             unit: on_paper.map(|paper| (paper.width / f64::from(self.size.width), paper.unit.symbol())),
             map: sheet.as_ref().map(|sheet| map_in(sheet, lattice)),
-            level_colors: self.level_colors.as_table(),
+            fills,
             background: (!self.ground.is_transparent()).then(|| self.ground.color()),
             edges: self.edges,
             path,

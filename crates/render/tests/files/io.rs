@@ -771,7 +771,7 @@ fn files_say_where_they_come_from() {
     let (size, background, edges) = ([80, 60], Some([1, 2, 3]), true);
     let style = svg::SvgStyle {
         size,
-        level_colors: colors.as_table(),
+        fills: svg::SvgFills::Levels(colors.as_table()),
         background,
         edges,
         path: &[],
@@ -997,7 +997,7 @@ fn svg_shows_every_triangle_and_every_edge_once() {
     for sample in Sample::all() {
         let style = svg::SvgStyle {
             size: [800, 600],
-            level_colors: colors.as_table(),
+            fills: svg::SvgFills::Levels(colors.as_table()),
             background: Some([1, 2, 3]),
             edges: true,
             path: &[],

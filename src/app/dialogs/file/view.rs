@@ -17,7 +17,7 @@ use meshbrush_kit::kit::background::{ProgressRow, WorkId};
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_kit::kit::file_coordinates::FileCoordinates;
 use meshbrush_kit::kit::mesh_export::ExportFigures;
-use meshbrush_kit::kit::picture_choices::PictureChoices;
+use meshbrush_kit::kit::view::View;
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::ExportFormat;
 use meshbrush_ui::theme::{font, metrics, tokens};
@@ -39,10 +39,8 @@ pub struct FileFacts<'a> {
     pub figures: Option<&'a Result<ExportFigures, String>>,
     /// The settings of the document.
     pub settings: &'a Settings,
-    /// The coordinates of exported meshes.
-    pub coordinates: FileCoordinates,
-    /// How exported pictures look.
-    pub picture: PictureChoices,
+    /// What the canvas shows, and how exported pictures look.
+    pub view: &'a View,
     /// Files that are being read.
     pub reads: &'a [ProgressRow],
 }
@@ -105,7 +103,7 @@ impl FileDialog {
             self.coordinates_row(ui, facts, commands);
             self.figure_rows(ui, facts);
             if self.writes_picture() {
-                pictures::rows(ui, facts.picture, commands);
+                pictures::rows(ui, facts.view, commands);
             }
             clicked.or(entered)
         });
@@ -294,7 +292,7 @@ impl FileDialog {
         if facts.settings.domain.projection.is_none() || is_model {
             return;
         }
-        let mut coordinates = facts.coordinates;
+        let mut coordinates = facts.view.file_coordinates;
         if dropdown_row(ui, "Coordinates", &mut coordinates, &FileCoordinates::ALL).changed() {
             commands.push(Command::from(ViewCommand::FileCoordinates(coordinates)));
         }
@@ -354,7 +352,7 @@ fn written(format: ExportFormat, facts: &FileFacts<'_>, path: &Path) -> String {
     match format.approximate_bytes(triangles).map(about) {
         Some(bytes) => format!("{count} triangles, about {}{files}.", format::file_size(bytes)),
         None => {
-            let width = format::count(facts.picture.size().width.into());
+            let width = format::count(facts.view.picture.size().width.into());
             format!("{count} triangles as a picture, {width} pixels wide.")
         }
     }
@@ -380,7 +378,7 @@ fn has_heights(settings: &Settings) -> bool {
 /// have no unit, and about a picture.
 fn coordinates_in(format: ExportFormat, facts: &FileFacts<'_>) -> &'static str {
     let settings = facts.settings;
-    let is_plane = facts.coordinates.is_plane(format, has_heights(settings));
+    let is_plane = facts.view.file_coordinates.is_plane(format, has_heights(settings));
     match (settings.domain.projection.is_some(), settings.unit) {
         _ if matches!(format, ExportFormat::Svg | ExportFormat::Png) => "",
         (true, _) if !is_plane => " Coordinates are longitudes and latitudes in degrees.",

@@ -29,7 +29,6 @@ use kinds::KINDS;
 use load::way_to_metres;
 use panel::LAYERS;
 use pictures::LayerPictures;
-pub use pictures::layer_color32;
 use surface_fit::MeasuredFit;
 use transfer::TRANSFER;
 

@@ -10,9 +10,9 @@ pub const PICTURE_COLORMAP: &str = "viridis";
 impl PictureArguments {
     /// Returns whether an option was given that is not the default.
     pub fn differs_from_default(&self) -> bool {
-        let Self { size, dpi, no_edges, colormap, light, ground, furniture } = self;
+        let Self { size, dpi, no_edges, colormap, color_by, light, ground, furniture } = self;
         let is_usual = size == PICTURE_SIZE && !no_edges && colormap == PICTURE_COLORMAP && !light;
-        !is_usual || dpi.is_some() || ground.is_some() || furniture.is_some()
+        !is_usual || dpi.is_some() || color_by.is_some() || ground.is_some() || furniture.is_some()
     }
 }
 
@@ -36,6 +36,13 @@ pub struct PictureArguments {
     /// Colours of the levels: viridis, magma, cividis, turbo or greys
     #[arg(long, value_name = "NAME", default_value = PICTURE_COLORMAP)]
     pub colormap: String,
+
+    /// What colours the triangles: levels, target (the level that h̄ asks for), smallest_angle,
+    /// largest_angle, edge_ratio, target_ratio, time_step or triangles_at_node [default: levels]
+    ///
+    /// The legend of `--furniture legend` says what the colours mean. Time steps need depths.
+    #[arg(long, value_name = "NAME", alias = "colour-by")]
+    pub color_by: Option<String>,
 
     /// Draw on a light background
     #[arg(long)]

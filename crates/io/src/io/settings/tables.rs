@@ -273,6 +273,9 @@ pub struct SavedOutput {
     /// Colours of the levels in a picture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colormap: Option<String>,
+    /// What colours the triangles of a picture, as in `"smallest_angle"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color_by: Option<String>,
     /// Whether the background of a picture is light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<bool>,

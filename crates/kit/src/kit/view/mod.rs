@@ -15,7 +15,7 @@ use super::command::{InterfaceScale, ViewCommand};
 use super::coordinates::CoordinateStyle;
 use super::dock::Dock;
 use super::file_coordinates::FileCoordinates;
-use super::picture_choices::PictureChoices;
+use super::picture_choices::{PictureChoices, PictureColors};
 use super::presentation::Presentation;
 use super::readout::Quantity;
 use meshbrush_core::document::Settings;
@@ -157,6 +157,16 @@ impl View {
             furniture: Some(self.picture.furniture),
             place: MapPlace { projection, unit: settings.unit, degrees },
             space: None,
+            overlay: None,
+        }
+    }
+
+    /// Returns the overlay that an exported picture of the mesh shows: that of the canvas, unless levels are
+    /// chosen for pictures. A view in space shows levels.
+    pub fn overlay_of_pictures(&self) -> FieldOverlay {
+        match self.picture.colors {
+            PictureColors::AsShown if !self.space.is_on => self.overlay,
+            PictureColors::AsShown | PictureColors::Levels => FieldOverlay::None,
         }
     }
 

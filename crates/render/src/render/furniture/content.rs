@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::axes::MapAxes;
-use super::level_legend::LevelLegend;
+use super::legend::Legend;
 use crate::colormap::Ground;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -20,15 +20,6 @@ pub struct SheetContent {
     pub north: Option<DVec2>,
     /// The colours.
     pub inks: Inks,
-}
-
-/// The rows of a legend and their colours.
-#[derive(Clone, Debug)]
-pub struct Legend {
-    /// The rows.
-    pub levels: LevelLegend,
-    /// The colour of each row: red, green and blue.
-    pub colors: Vec<[u8; 3]>,
 }
 
 /// What a scale bar measures.

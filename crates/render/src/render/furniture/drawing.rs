@@ -3,10 +3,11 @@
 use glam::{DVec2, dvec2};
 
 use super::axes::{MapAxes, MapTick};
-use super::blocks::{BAR, BETWEEN, COLUMN_GAPS, GAP, NORTH, NORTH_LENGTH, ROW, SWATCH, TITLE_ROW};
-use super::content::{Inks, Legend, SheetContent};
+use super::blocks::{BAR, BETWEEN, GAP, NORTH, NORTH_LENGTH, ROW, SCALE, SWATCH, TITLE_ROW, column_gap};
+use super::content::{Inks, SheetContent};
 use super::glyphs;
 use super::layout::{SheetPlaces, Side};
+use super::legend::{Legend, LegendBody, LegendScale};
 use super::scale_bar::ScaleBar;
 use super::sheet::{Sheet, SheetMark};
 use crate::render::north_arrow::north_arrow;
@@ -82,6 +83,9 @@ impl<'a> Drawing<'a> {
 
     /// Writes a text on a baseline.
     fn text(&mut self, at: DVec2, align: Align, text: &str, color: [u8; 3]) {
+        if text.is_empty() {
+            return;
+        }
         let size = self.em();
         let share = match align {
             Align::Left => 0.0,
@@ -148,7 +152,7 @@ impl<'a> Drawing<'a> {
         let [low, high] = self.map();
         let x = high.x + GAP * em;
         if let Some(legend) = &content.legend {
-            self.legend(legend, dvec2(x, low.y), legend.levels.rows.len());
+            self.legend(legend, dvec2(x, low.y), legend.list().len());
         }
         let bottom = high.y.max(low.y + content.stack_height(em));
         if let Some(bar) = bar {
@@ -182,39 +186,84 @@ impl<'a> Drawing<'a> {
     /// Draws a legend from its upper left corner, with so many rows below each other.
     fn legend(&mut self, legend: &Legend, at: DVec2, rows: usize) {
         let em = self.em();
-        self.text(at + dvec2(0.0, glyphs::CAPITAL * em), Align::Left, &legend.levels.title, self.inks.quiet);
-        let rows = rows.max(1);
+        self.text(at + dvec2(0.0, glyphs::CAPITAL * em), Align::Left, &legend.title, self.inks.quiet);
         let first = at + dvec2(0.0, TITLE_ROW * em);
-        let widths = legend.columns(em);
-        for (index, (row, &color)) in legend.levels.rows.iter().zip(&legend.colors).enumerate() {
+        match &legend.body {
+            LegendBody::Rows(_) => self.legend_rows(legend, first, rows.max(1)),
+            LegendBody::Scale(scale) => self.legend_scale(scale, first),
+            LegendBody::Missing(reason) => {
+                self.text(first + dvec2(0.0, self.baseline(ROW)), Align::Left, reason, self.inks.quiet);
+            }
+        }
+    }
+
+    /// Returns from the top of a row to the baseline of a text in its middle.
+    fn baseline(&self, row: f64) -> f64 {
+        0.5 * (row + glyphs::CAPITAL) * self.em()
+    }
+
+    fn legend_rows(&mut self, legend: &Legend, first: DVec2, rows: usize) {
+        let (em, widths) = (self.em(), legend.columns(self.em()));
+        for (index, row) in legend.list().iter().enumerate() {
             let (column, below) = ((index / rows) as f64, (index % rows) as f64);
             let corner = first + dvec2(column * legend.column_step(em), below * ROW * em);
             let end = corner + dvec2(SWATCH * em, ROW * em);
             // Swatches meet on whole pixels.
-            self.marks.push(SheetMark::Fill { corners: [corner.round(), end.round()], color });
-            let baseline = corner.y + 0.5 * (ROW + glyphs::CAPITAL) * em;
-            let inks = [self.inks.quiet, self.inks.strong, self.inks.quiet];
+            self.marks.push(SheetMark::Fill { corners: [corner.round(), end.round()], color: row.color });
+            let baseline = corner.y + self.baseline(ROW);
+            if let [name] = &row.texts[..] {
+                self.text(dvec2(end.x + column_gap(0) * em, baseline), Align::Left, name, self.inks.strong);
+                continue;
+            }
             let mut right = end.x;
-            for (n, text) in row.texts.iter().enumerate() {
-                right += COLUMN_GAPS[n] * em + widths[n];
-                self.text(dvec2(right, baseline), Align::Right, text, inks[n]);
+            for (n, (text, width)) in row.texts.iter().zip(&widths).enumerate() {
+                right += column_gap(n) * em + width;
+                let ink = if n == 1 { self.inks.strong } else { self.inks.quiet };
+                self.text(dvec2(right, baseline), Align::Right, text, ink);
             }
         }
         self.outlines_of_swatches(legend, first, rows);
     }
 
+    /// Draws colours side by side, which meet on whole pixels, with the texts below them.
+    fn legend_scale(&mut self, scale: &LegendScale, at: DVec2) {
+        let (em, width) = (self.em(), scale.bar_width(self.em()));
+        let (corner, end) = (at.round(), (at + dvec2(width, SCALE * em)).round());
+        let side = |cell: usize| {
+            let share = cell as f64 / scale.colors.len().max(1) as f64;
+            (corner.x + share * (end.x - corner.x)).round()
+        };
+        for (cell, &color) in scale.colors.iter().enumerate() {
+            let corners = [dvec2(side(cell), corner.y), dvec2(side(cell + 1), end.y)];
+            self.marks.push(SheetMark::Fill { corners, color });
+        }
+        self.outline([corner, end]);
+        let below = end.y + self.baseline(ROW);
+        let places =
+            [(corner.x, Align::Left), (0.5 * (corner.x + end.x), Align::Middle), (end.x, Align::Right)];
+        for ((x, align), text) in places.into_iter().zip(&scale.ends) {
+            self.text(dvec2(x, below), align, text, self.inks.strong);
+        }
+        self.text(dvec2(corner.x, below + ROW * em), Align::Left, &scale.note, self.inks.quiet);
+    }
+
+    /// Draws a line around a rectangle of whole pixels.
+    fn outline(&mut self, [from, to]: [DVec2; 2]) {
+        let width = self.width(LINE);
+        let half = DVec2::splat(0.5 * width);
+        let (from, to) = (from - half, to + half);
+        let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y), from];
+        self.line(&corners, width, self.inks.quiet);
+    }
+
     /// Draws a line around the swatches: the first level has almost the colour of the ground.
     fn outlines_of_swatches(&mut self, legend: &Legend, first: DVec2, rows: usize) {
-        let (em, width) = (self.em(), self.width(LINE));
-        let half = DVec2::splat(0.5 * width);
-        let count = legend.levels.rows.len();
+        let (em, count) = (self.em(), legend.list().len());
         for column in 0..count.div_ceil(rows) {
             let in_column = rows.min(count - column * rows);
             let corner = first + dvec2(column as f64 * legend.column_step(em), 0.0);
-            let end = (corner + dvec2(SWATCH, ROW * in_column as f64) * em).round() + half;
-            let corner = corner.round() - half;
-            let corners = [corner, dvec2(end.x, corner.y), end, dvec2(corner.x, end.y), corner];
-            self.line(&corners, width, self.inks.quiet);
+            let end = (corner + dvec2(SWATCH, ROW * in_column as f64) * em).round();
+            self.outline([corner.round(), end]);
         }
     }
 

@@ -8,6 +8,11 @@ use meshbrush_study::drawing::OutlinePart;
 /// Height of capital letters and of digits, as a share of the size of a text.
 pub const CAPITAL: f64 = 0.727;
 
+/// The bar of h̄, which stands over the letter before it.
+const BAR_ABOVE: char = '\u{304}';
+/// Height of the letters that the font makes the bar for, as a share of the size of a text.
+const BELOW_BAR: f64 = 0.545;
+
 /// Outlines of the letters of a font, by letter.
 static GLYPHS: LazyLock<Vec<Glyph>> =
     LazyLock::new(|| include_str!("../../../assets/glyphs.txt").lines().filter_map(Glyph::read).collect());
@@ -35,6 +40,12 @@ impl Glyph {
             });
         }
         Some(Self { letter, advance, outline })
+    }
+
+    /// Returns how far it reaches above the baseline.
+    fn top(&self) -> f64 {
+        let ends = self.outline.iter().filter_map(|part| part.letter_and_points().1.last().copied());
+        ends.fold(0.0, |top, [_, y]| top.max(-y))
     }
 
     /// Returns a letter; a question mark for one that the table has not.
@@ -73,10 +84,13 @@ pub fn width(text: &str, size_px: f64) -> f64 {
 /// by the nonzero rule.
 pub fn outline(text: &str, at: DVec2, size_px: f64) -> Vec<OutlinePart> {
     let mut parts = Vec::new();
-    let mut pen = at;
+    let (mut pen, mut top) = (at, 0.0);
     for letter in text.chars() {
         let (width, from) = advance(letter);
-        let begin = pen + dvec2(from * size_px, 0.0);
+        // Over a tall letter, the bar is as much higher.
+        let rise = if letter == BAR_ABOVE { (top - BELOW_BAR).max(0.0) } else { 0.0 };
+        let begin = pen + dvec2(from, -rise) * size_px;
+        top = Glyph::of(letter).top();
         let of_letter = Glyph::of(letter).outline.iter();
         parts.extend(of_letter.map(|part| part.map(|point| (begin + size_px * DVec2::from(point)).into())));
         pen.x += width * size_px;
@@ -91,11 +105,25 @@ mod tests {
     #[test]
     fn the_table_has_every_letter_that_furniture_is_written_with() {
         assert!(GLYPHS.is_sorted_by_key(|glyph| glyph.letter), "it is searched by halving");
-        for letter in "Level, diameter in km, count 0123456789.,-−°′″ NSEWM×≈".chars() {
+        let letters = "Level, diameter in km, count 0123456789.,-−°′″ NSEWM×≈ h̄ ≤≥ Größe Łódź Ψθ “–”";
+        for letter in letters.chars() {
             assert_eq!(Glyph::of(letter).letter, letter);
             assert!(letter == ' ' || !Glyph::of(letter).outline.is_empty(), "{letter}");
         }
         assert_eq!(Glyph::of('語').letter, '?');
+    }
+
+    #[test]
+    fn the_bar_of_h_is_over_it_and_takes_no_room() {
+        let points = |text: &str| -> Vec<DVec2> {
+            let parts = outline(text, DVec2::ZERO, 100.0);
+            parts.iter().flat_map(|part| part.letter_and_points().1.to_vec()).map(DVec2::from).collect()
+        };
+        let (alone, with_bar) = (points("h"), points("h̄"));
+        let top = alone.iter().map(|at| at.y).fold(0.0, f64::min);
+        let bar = &with_bar[alone.len()..];
+        assert!(!bar.is_empty() && bar.iter().all(|at| at.y < top && at.x > 0.0 && at.x < width("h", 100.0)));
+        assert_eq!(width("h̄", 100.0), width("h", 100.0));
     }
 
     #[test]

@@ -220,7 +220,7 @@ impl Surroundings {
         let bar = content.bar_on(&camera, text_px);
         let mut margins = content.axes_margins(&ticks, text_px);
         let legend_rows = match side {
-            Side::Right => content.legend.as_ref().map_or(0, |legend| legend.levels.rows.len()),
+            Side::Right => content.legend.as_ref().map_or(0, |legend| legend.list().len()),
             Side::Below => {
                 let room = f64::from(map_size[0]) - content.aside_width(bar.as_ref(), text_px);
                 content.rows_in(room, text_px)?

@@ -9,6 +9,7 @@ mod content;
 mod drawing;
 mod glyphs;
 mod layout;
+mod legend;
 mod level_legend;
 mod pixels;
 mod scale_bar;
@@ -17,8 +18,9 @@ mod sheet;
 
 pub use self::axes::MapAxes;
 pub use self::choice::{Furniture, UnknownFurniture};
-pub use self::content::{Bar, Inks, Legend, SheetContent};
+pub use self::content::{Bar, Inks, SheetContent};
 pub use self::layout::{NoRoom, SheetRequest};
+pub use self::legend::{Legend, LegendBody, LegendRow, LegendScale};
 pub use self::level_legend::{LevelLegend, LevelRow};
 pub use self::pixels::{draw_sheet, without_premultiplication};
 pub use self::scale_bar::ScaleBar;

@@ -67,7 +67,8 @@ pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image 
     image
 }
 
-fn multiply_by(image: &mut Image, camera: &Camera, overlay: &Overlay) {
+/// Multiplies the colours of a picture by those of an overlay.
+pub(in crate::render) fn multiply_by(image: &mut Image, camera: &Camera, overlay: &Overlay) {
     let map = overlay.texels(camera);
     let half = camera.half_size_px();
     let [width, height] = camera.size_px();

@@ -1,9 +1,9 @@
-//! The colours of overlays. The legend shows the same colours as the canvas: both take them from here.
+//! The colours of overlays. Legends show the same colours as the canvas and exported pictures: all take them
+//! from here.
 
-use crate::app::features::layers::layer_color32;
+use super::{Ground, LevelColors, category_color};
 use meshbrush_core::layers::LayerId;
 use meshbrush_core::quality::QualityMeasure;
-use meshbrush_render::colormap::{Ground, LevelColors};
 
 /// A colour as sRGB bytes, opaque.
 pub type Opaque = [u8; 4];
@@ -28,10 +28,11 @@ const GROUND: [Opaque; 5] = [
     [0xb5, 0x89, 0x64, 0xff],
     [0xe9, 0xe4, 0xdd, 0xff],
 ];
-/// The smallest and the largest angles, in degrees, and the edge ratios with a neutral colour and with the
-/// strongest one.
+/// The smallest angles, in degrees, with a neutral colour and with the strongest one.
 pub const SMALLEST_ANGLES: [f32; 2] = [45.0, 15.0];
+/// The same of the largest angles.
 pub const LARGEST_ANGLES: [f32; 2] = [90.0, 150.0];
+/// The same of the ratios of edges.
 pub const EDGE_RATIOS: [f32; 2] = [1.5, 3.5];
 /// The triangles at a node with a neutral colour, as in a mesh before nodes are fitted to an outline, and
 /// with the strongest one, as solvers refuse more.
@@ -73,7 +74,10 @@ impl OverlayPalette {
 
     /// Returns the colour of the layer that decides; neutral where none does.
     pub fn layer(&self, layer: Option<LayerId>) -> Opaque {
-        layer.map_or(self.neutral(), |id| layer_color32(id).to_array())
+        layer.map_or(self.neutral(), |LayerId(id)| {
+            let [r, g, b] = category_color(id);
+            [r, g, b, 0xff]
+        })
     }
 
     /// Returns the colour of a triangle that is finer than required by a number of halvings; neutral for NaN.
@@ -189,7 +193,7 @@ fn mixed(from: Opaque, to: Opaque, share: f32) -> Opaque {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use meshbrush_render::colormap::Colormap;
+    use crate::colormap::Colormap;
 
     /// Relative luminance of WCAG 2, from 0 to 1.
     fn luminance([r, g, b, _]: Opaque) -> f32 {
