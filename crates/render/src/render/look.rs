@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::furniture::{
-    Bar, Furniture, Inks, Legend, LevelLegend, MapAxes, NoRoom, Sheet, SheetContent, SheetRequest,
+    Bar, Furniture, Inks, Legend, LevelLegend, MapAxes, NoRoom, Sheet, SheetContent, SheetRequest, SpaceAxes,
     draw_sheet, without_premultiplication,
 };
 use super::north_arrow::{ArrowLines, north_arrow_in};
@@ -283,9 +283,6 @@ impl Look {
     pub fn missing_furniture(&self) -> Option<&'static str> {
         // Who asks for all means all that there is.
         let furniture = self.furniture.filter(|furniture| *furniture != Furniture::ALL)?;
-        if furniture.axes && self.space.is_some() {
-            return Some("A picture in space has no axes.");
-        }
         let lacks_north = furniture.north && self.direction_to_north().is_none();
         lacks_north.then_some("There is no arrow to the north: the document does not lie on the Earth.")
     }
@@ -293,12 +290,18 @@ impl Look {
     fn content(&self, furniture: Furniture, mesh: &Mesh, extract: &Extract) -> SheetContent {
         let lattice = mesh.lattice();
         let north = self.direction_to_north().filter(|_| furniture.north);
+        let axes = furniture.axes.then(|| self.place.axes(lattice));
         SheetContent {
             legend: furniture.legend.then(|| match self.shown_overlay() {
                 Some(overlay) => overlay.legend.clone(),
                 None => self.legend(mesh, extract),
             }),
-            axes: (furniture.axes && self.space.is_none()).then(|| self.place.axes(lattice)),
+            axes: axes.clone().filter(|_| self.space.is_none()),
+            space_axes: axes.zip(self.space.clone()).map(|(axes, space)| SpaceAxes {
+                space,
+                axes,
+                lattice: *lattice,
+            }),
             bar: furniture.scale.then(|| self.place.bar(lattice)),
             north: north.map(|north| self.turned(lattice, north)),
             inks: Inks::on(self.ground.theme()),

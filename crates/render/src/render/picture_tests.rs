@@ -1,6 +1,7 @@
 //! Pictures with furniture, measured.
 
 mod overlays;
+mod space;
 
 use std::f64::consts::PI;
 

@@ -41,7 +41,7 @@ impl SpaceLook {
     }
 
     /// Returns the whole surface over a lattice in a picture of a size in pixels, with space around it.
-    pub(super) fn view_in(&self, lattice: &Lattice, size: [u32; 2]) -> SpaceView {
+    pub(in crate::render) fn view_in(&self, lattice: &Lattice, size: [u32; 2]) -> SpaceView {
         self.view(lattice, size, SPACE_MARGIN * f64::from(size[0].min(size[1])))
     }
 

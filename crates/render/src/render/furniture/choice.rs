@@ -8,7 +8,7 @@ use std::str::FromStr;
 pub struct Furniture {
     /// The levels: colour, diameter and number of triangles.
     pub legend: bool,
-    /// A frame around the map with coordinates. Views in space have none.
+    /// A frame around the map with coordinates; in space the outline of a box, with heights as well.
     pub axes: bool,
     /// A bar of a round length.
     pub scale: bool,

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::axes::MapAxes;
 use super::legend::Legend;
+use super::space_axes::SpaceAxes;
 use crate::colormap::Ground;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -12,8 +13,10 @@ use meshbrush_mesh::text::LengthUnit;
 pub struct SheetContent {
     /// The legend.
     pub legend: Option<Legend>,
-    /// The axes.
+    /// The axes of a plan.
     pub axes: Option<MapAxes>,
+    /// The axes of a view in space.
+    pub space_axes: Option<SpaceAxes>,
     /// The scale bar.
     pub bar: Option<Bar>,
     /// The direction to the north in the picture, y upwards.

@@ -10,6 +10,7 @@ use super::layout::{SheetPlaces, Side};
 use super::legend::{Legend, LegendBody, LegendScale};
 use super::scale_bar::ScaleBar;
 use super::sheet::{Sheet, SheetMark};
+use super::space_axes::{SpaceFrame, SpaceLabel};
 use crate::render::north_arrow::north_arrow;
 
 /// Lengths of ticks with and without a label, in heights of the text.
@@ -48,6 +49,9 @@ impl<'a> Drawing<'a> {
         let mut drawing = Self { places, inks: content.inks, marks: Vec::new() };
         if let Some(axes) = &content.axes {
             drawing.frame(axes);
+        }
+        if let Some(frame) = &places.around.space {
+            drawing.space_frame(frame);
         }
         let bar = places.around.bar.as_ref();
         match places.side {
@@ -121,6 +125,20 @@ impl<'a> Drawing<'a> {
         }
     }
 
+    /// Draws the axes of a view in space.
+    fn space_frame(&mut self, frame: &SpaceFrame) {
+        let (width, from) = (self.width(LINE), self.map()[0]);
+        let outline: Vec<_> = frame.outline.iter().map(|&at| from + at).collect();
+        self.line(&outline, width, self.inks.quiet);
+        for line in &frame.lines {
+            self.line(&line.map(|at| from + at), width, self.inks.strong);
+        }
+        for SpaceLabel { text, place: [left_top, right_bottom] } in &frame.labels {
+            let at = from + dvec2(left_top.x, right_bottom.y);
+            self.text(at, Align::Left, text, self.inks.quiet);
+        }
+    }
+
     fn tick_length(&self, tick: &MapTick) -> f64 {
         TICKS[usize::from(tick.label.is_empty())] * self.em()
     }
@@ -150,7 +168,7 @@ impl<'a> Drawing<'a> {
     fn stack(&mut self, content: &SheetContent, bar: Option<&ScaleBar>) {
         let em = self.em();
         let [low, high] = self.map();
-        let x = high.x + GAP * em;
+        let x = high.x + self.places.around.margins.gap_to_block(em);
         if let Some(legend) = &content.legend {
             self.legend(legend, dvec2(x, low.y), legend.list().len());
         }

@@ -1,5 +1,7 @@
 //! Where map and furniture go: around the map or below it, in a size of text that leaves room for the map.
 
+use glam::DVec2;
+
 use super::axes::MapTick;
 use super::blocks::GAP;
 use super::choice::Furniture;
@@ -8,10 +10,13 @@ use super::drawing::Drawing;
 use super::glyphs;
 use super::scale_bar::ScaleBar;
 use super::sheet::Sheet;
+use super::space_axes::SpaceFrame;
 use crate::scene::Camera;
 
 /// Space around everything, in heights of the text.
 const PAD: f64 = 1.0;
+/// Least space between labels and what stands beside the map, in heights of the text.
+const LEAST_GAP: f64 = 0.5;
 /// Longest scale bar, in heights of the text.
 const LONGEST_BAR: f64 = 9.0;
 /// Smallest text, in pixels.
@@ -20,6 +25,10 @@ const SMALLEST_TEXT: f64 = 7.0;
 const ENOUGH: f64 = 0.36;
 /// Share that it must keep, and its shortest side in pixels.
 const LEAST: (f64, u32) = (0.08, 24);
+
+/// How often the size of the map is found from the room of its labels, and how often at most until it fits.
+const ROUNDS: u32 = 4;
+const MOST_ROUNDS: u32 = 12;
 
 /// The size of a picture.
 pub struct SheetRequest<'a> {
@@ -84,6 +93,7 @@ pub(super) struct SheetPlaces {
 #[derive(Clone, Debug)]
 pub(super) struct Surroundings {
     pub(super) ticks: [Vec<MapTick>; 2],
+    pub(super) space: Option<SpaceFrame>,
     pub(super) margins: Margins,
     pub(super) bar: Option<ScaleBar>,
     /// Rows of the legend below each other.
@@ -137,7 +147,7 @@ impl SheetContent {
     fn furniture(&self) -> Furniture {
         Furniture {
             legend: self.legend.is_some(),
-            axes: self.axes.is_some(),
+            axes: self.axes.is_some() || self.space_axes.is_some(),
             scale: self.bar.is_some(),
             north: self.north.is_some(),
         }
@@ -161,10 +171,15 @@ impl SheetPlaces {
         let total = [f64::from(request.width), f64::from(request.height.unwrap_or(request.most_height))];
         let mut map_size = request.map_in(0.7 * total[0], 0.7 * total[1])?;
         // Labels and the bar depend on the size of the map, which depends on their room.
-        for _ in 0..4 {
+        for round in 0..MOST_ROUNDS {
             let around = Surroundings::new(request, content, side, text_px, map_size)?;
             let [beside, below] = around.margins.sums(side, text_px);
-            map_size = request.map_in(total[0] - 2.0 * pad - beside, total[1] - 2.0 * pad - below)?;
+            let fitting = request.map_in(total[0] - 2.0 * pad - beside, total[1] - 2.0 * pad - below)?;
+            // In space, labels come and go with the size: from some round on the map only becomes smaller.
+            if round >= ROUNDS && fitting[0] >= map_size[0] {
+                break;
+            }
+            map_size = fitting;
         }
         let around = Surroundings::new(request, content, side, text_px, map_size)?;
         let margins = around.margins;
@@ -193,16 +208,30 @@ impl SheetPlaces {
 }
 
 impl Margins {
+    /// Returns the room that labels take around a map of a size.
+    fn around(frame: &SpaceFrame, map_size: [u32; 2]) -> Self {
+        let size = DVec2::from(map_size.map(f64::from));
+        let mut before = [DVec2::ZERO; 2];
+        for [from, to] in frame.labels.iter().map(|label| label.place) {
+            before = [before[0].max(-from), before[1].max(to - size)];
+        }
+        let [DVec2 { x: left, y: top }, DVec2 { x: right, y: bottom }] = before;
+        Self { left, right, top, bottom, block: 0.0 }
+    }
+
     /// Returns the width of everything beside the map, and the height of everything above and below it.
     fn sums(&self, side: Side, text_px: f64) -> [f64; 2] {
-        let block = if self.block > 0.0 { self.block + GAP * text_px } else { 0.0 };
         let [beside, below] = match side {
-            Side::Right => [block, 0.0],
-            Side::Below => [0.0, block],
+            _ if self.block == 0.0 => [self.right, 0.0],
+            Side::Right => [self.gap_to_block(text_px) + self.block, 0.0],
+            Side::Below => [self.right, self.block + GAP * text_px],
         };
-        // Labels at the right end reach into the gap.
-        let right = if beside > 0.0 { (self.right - GAP * text_px).max(0.0) } else { self.right };
-        [self.left + right + beside, self.top + self.bottom + below]
+        [self.left + beside, self.top + self.bottom + below]
+    }
+
+    /// Returns from the map to what stands beside it: labels at the right end reach into the gap.
+    pub(super) fn gap_to_block(&self, text_px: f64) -> f64 {
+        text_px * GAP.max(self.right / text_px + LEAST_GAP)
     }
 }
 
@@ -218,7 +247,11 @@ impl Surroundings {
         let camera = (request.camera)(map_size);
         let ticks = content.axes.as_ref().map(|axes| axes.ticks(&camera, text_px)).unwrap_or_default();
         let bar = content.bar_on(&camera, text_px);
-        let mut margins = content.axes_margins(&ticks, text_px);
+        let space = content.space_axes.as_ref().map(|axes| axes.frame(map_size, text_px));
+        let mut margins = match &space {
+            Some(frame) => Margins::around(frame, map_size),
+            None => content.axes_margins(&ticks, text_px),
+        };
         let legend_rows = match side {
             Side::Right => content.legend.as_ref().map_or(0, |legend| legend.list().len()),
             Side::Below => {
@@ -230,7 +263,7 @@ impl Surroundings {
             Side::Right => content.stack_width(bar.as_ref(), text_px),
             Side::Below => content.block_height(legend_rows, text_px),
         };
-        Some(Self { ticks, margins, bar, legend_rows })
+        Some(Self { ticks, space, margins, bar, legend_rows })
     }
 }
 

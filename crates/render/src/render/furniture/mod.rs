@@ -15,6 +15,7 @@ mod pixels;
 mod scale_bar;
 mod shapes;
 mod sheet;
+mod space_axes;
 
 pub use self::axes::MapAxes;
 pub use self::choice::{Furniture, UnknownFurniture};
@@ -26,3 +27,4 @@ pub use self::pixels::{draw_sheet, without_premultiplication};
 pub use self::scale_bar::ScaleBar;
 pub use self::shapes::shapes_of;
 pub use self::sheet::{Sheet, SheetMark};
+pub use self::space_axes::SpaceAxes;
