@@ -356,7 +356,7 @@ fn pieces_of_the_boundary_have_names() {
     assert!(0.0 < shortest && shortest < longest && longest < 2.0 && (1.0..4.0).contains(&ratio));
     let quality = &summary["quality"];
     for (measure, count) in
-        [("smallest_angle", "triangles"), ("edge_ratio", "triangles"), ("triangles_at_node", "nodes")]
+        [("smallest_angle", "triangles"), ("target_ratio", "triangles"), ("triangles_at_node", "nodes")]
     {
         let bins = quality[measure]["bins"].as_array().unwrap().iter();
         let counted: u64 = bins.map(|bin| bin["count"].as_u64().unwrap()).sum();

@@ -21,6 +21,9 @@ pub struct QualitySummary {
     /// The ratios of the longest to the shortest edges of triangles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub edge_ratio: Option<MeasureFigures>,
+    /// The ratios of the longest edges of triangles to h̄ at their middles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_ratio: Option<MeasureFigures>,
     /// The largest time steps of triangles with the Courant number 1, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_step: Option<MeasureFigures>,
@@ -61,10 +64,10 @@ pub struct BinFigures {
 }
 
 impl QualitySummary {
-    /// Measures the mesh that files get. Without depths there are no time steps. Edges are not compared with
-    /// h̄: that is quick for a person, and not the same number in every front end.
+    /// Measures the mesh that files get. Without depths there are no time steps.
     pub fn of(finished: &FinishedMesh, extract: &Extract, depths: Option<&NodeDepths>) -> Self {
-        let mut measures = TriangleMeasures::new(extract.view(), finished.ground());
+        let measures = TriangleMeasures::new(extract.view(), finished.ground());
+        let mut measures = measures.with_target(&finished.built().field, finished.paint());
         if let Some(NodeDepths { depths, .. }) = depths {
             measures = measures.with_depths(depths, finished.unit());
         }
@@ -74,6 +77,7 @@ impl QualitySummary {
             smallest_angle: figures(QualityMeasure::SmallestAngle),
             largest_angle: figures(QualityMeasure::LargestAngle),
             edge_ratio: figures(QualityMeasure::EdgeRatio),
+            target_ratio: figures(QualityMeasure::TargetRatio),
             time_step: figures(QualityMeasure::TimeStep),
             triangles_at_node: figures(QualityMeasure::Valence),
         }
