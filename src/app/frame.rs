@@ -235,11 +235,14 @@ impl App {
         if let Some(panel) = self.view.revealed_panel.and_then(panels::named) {
             self.view.dock.choose(panel.tab);
         }
-        panels::show(ui, &self.state(readout.as_ref()), &entries, &mut commands);
+        let status = panels::show(ui, &self.state(readout.as_ref()), &entries, &mut commands);
         self.view.revealed_panel = None;
         egui::CentralPanel::default()
             .frame(Frame::NONE)
             .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));
+        if let Some(place) = status {
+            panels::show_status(ui, place, &self.state(readout.as_ref()));
+        }
         self.draw_dialogs(ui.ctx(), &mut commands);
         if self.view.presentation.is_some() {
             presentation::paint_pointer_ring(ui.ctx());

@@ -67,19 +67,19 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     if is_low {
         return;
     }
-    ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
-        ui.spacing_mut().item_spacing.y = 6.0;
-        if ToolButton::new(Icon::FIT, "Fit domain").entry("Fit domain").show(ui).clicked() {
-            commands.push(Command::from(ViewCommand::Fit));
-        }
-        let history = state.session.document().history();
-        let redo = ToolButton::new(Icon::REDO, "Redo").entry("redo");
-        let undo = ToolButton::new(Icon::UNDO, "Undo").entry("undo");
-        if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
-            commands.push(Command::from(EditCommand::Redo));
-        }
-        if ui.add_enabled_ui(state.session.can_undo(), |ui| undo.show(ui)).inner.clicked() {
-            commands.push(Command::from(EditCommand::Undo));
-        }
-    });
+    // From the top: a layout from the bottom would be read from the bottom.
+    let height = 3.0 * metrics::TOOL + 2.0 * ui.spacing().item_spacing.y;
+    ui.add_space(ui.available_height() - height);
+    let history = state.session.document().history();
+    let redo = ToolButton::new(Icon::REDO, "Redo").entry("redo");
+    let undo = ToolButton::new(Icon::UNDO, "Undo").entry("undo");
+    if ui.add_enabled_ui(state.session.can_undo(), |ui| undo.show(ui)).inner.clicked() {
+        commands.push(Command::from(EditCommand::Undo));
+    }
+    if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
+        commands.push(Command::from(EditCommand::Redo));
+    }
+    if ToolButton::new(Icon::FIT, "Fit domain").entry("Fit domain").show(ui).clicked() {
+        commands.push(Command::from(ViewCommand::Fit));
+    }
 }

@@ -1,7 +1,8 @@
 //! The docks at the right: the layers above, and below them the tabs.
 
 use eframe::egui::{
-    self, Context, CursorIcon, Frame, Id, Margin, Rect, ScrollArea, Sense, Stroke, Ui, UiBuilder, vec2,
+    self, Align, Context, CursorIcon, Frame, Id, Layout, Margin, Rect, ScrollArea, Sense, Stroke, Ui,
+    UiBuilder, vec2,
 };
 
 use super::sections;
@@ -45,6 +46,23 @@ impl Split {
     }
 }
 
+/// The place of the docks in a window.
+pub struct DockPlace {
+    rect: Rect,
+    /// The greatest width that the docks can be dragged to.
+    widest: f32,
+}
+
+/// Takes the place of both docks at the right, before what is at its left. What is in them is shown later, in
+/// the order in which it is read.
+pub fn reserve(ui: &mut Ui) -> DockPlace {
+    let widest = (ui.available_width() - LEAST_CANVAS).clamp(*WIDTHS.start(), *WIDTHS.end());
+    let width = Split::WIDTH.chosen(ui.ctx()).clamp(*WIDTHS.start(), widest);
+    let panel = egui::Panel::right("docks").frame(Frame::new().fill(tokens(ui).panel));
+    let shown = panel.resizable(false).exact_size(width).show(ui, |_| {});
+    DockPlace { rect: shown.response.rect, widest }
+}
+
 /// Shows both docks.
 ///
 /// ```text
@@ -53,34 +71,34 @@ impl Split {
 ///         ‖ lower dock: tabs
 ///   divider
 /// ```
-pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let widest = (ui.available_width() - LEAST_CANVAS).clamp(*WIDTHS.start(), *WIDTHS.end());
-    let width = Split::WIDTH.chosen(ui.ctx()).clamp(*WIDTHS.start(), widest);
-    let shown = egui::Panel::right("docks")
-        .frame(Frame::new().fill(tokens(ui).panel))
+pub fn show(ui: &mut Ui, place: &DockPlace, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let &DockPlace { rect: dock, widest } = place;
+    let mut inner = in_place(ui, dock, "in the docks");
+    let height = dock.height();
+    let tallest = (height - LEAST_LOWER).max(LEAST_UPPER);
+    let upper = (Split::SHARE.chosen(ui.ctx()) * height).round().clamp(LEAST_UPPER, tallest);
+    egui::Panel::top("layers")
+        .frame(Frame::new().fill(tokens(ui).panel).inner_margin(margin()))
         .resizable(false)
-        .exact_size(width)
-        .show(ui, |ui| {
-            let height = ui.available_height();
-            let tallest = (height - LEAST_LOWER).max(LEAST_UPPER);
-            let upper = (Split::SHARE.chosen(ui.ctx()) * height).round().clamp(LEAST_UPPER, tallest);
-            let dock = ui.max_rect();
-            egui::Panel::top("layers")
-                .frame(Frame::new().fill(tokens(ui).panel).inner_margin(margin()))
-                .resizable(false)
-                .exact_size(upper)
-                .show(ui, |ui| upper_dock(ui, state, commands));
-            lower_dock(ui, state, commands);
-            let line = dock.with_min_y(dock.top() + upper).with_max_y(dock.top() + upper);
-            if let Some(y) = divider(ui, line).map(|at| at.y) {
-                let height_chosen = (y - dock.top()).clamp(LEAST_UPPER, tallest);
-                Split::SHARE.choose(ui.ctx(), height_chosen / height);
-            }
-        });
-    let dock = shown.response.rect;
+        .exact_size(upper)
+        .show(&mut inner, |ui| upper_dock(ui, state, commands));
+    lower_dock(&mut inner, state, commands);
+    let line = dock.with_min_y(dock.top() + upper).with_max_y(dock.top() + upper);
+    if let Some(y) = divider(&inner, line).map(|at| at.y) {
+        let height_chosen = (y - dock.top()).clamp(LEAST_UPPER, tallest);
+        Split::SHARE.choose(ui.ctx(), height_chosen / height);
+    }
     if let Some(x) = divider(ui, dock.with_max_x(dock.left())).map(|at| at.x) {
         Split::WIDTH.choose(ui.ctx(), (dock.right() - x).clamp(*WIDTHS.start(), widest));
     }
+}
+
+/// Returns where to show what belongs to a panel whose place was taken before.
+pub(super) fn in_place(ui: &mut Ui, place: Rect, name: &str) -> Ui {
+    let layout = Layout::top_down(Align::Min);
+    let mut inner = ui.new_child(UiBuilder::new().id_salt(name).max_rect(place).layout(layout));
+    inner.set_clip_rect(place);
+    inner
 }
 
 /// Takes hold of a divider, a vertical or a horizontal line. Returns where it is dragged to.

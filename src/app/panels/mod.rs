@@ -22,7 +22,7 @@ mod view;
 
 pub use bars::ask_for_menu;
 
-use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
+use eframe::egui::{self, Frame, Margin, Rect, ScrollArea, Ui};
 
 use super::features::{ROWS, report, stepping};
 use super::parts::{WindowPart, mark};
@@ -34,9 +34,21 @@ use meshbrush_ui::theme::{metrics, tokens};
 /// The sections of the docks that belong to no feature.
 static PANELS: [&Panel; 2] = [&budgets::BUDGETS, &mesh::MESH];
 
-/// Draws all panels, from the rim inwards. The menus have the `entries`.
-pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], commands: &mut Vec<Command>) {
-    show_bars(ui, state, entries, commands);
+/// Draws all panels but the status bar, whose place it returns: egui divides a window from the rim inwards,
+/// and a screen reader reads what is drawn first. The menus have the `entries`.
+pub fn show(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    entries: &[CatalogItem],
+    commands: &mut Vec<Command>,
+) -> Option<Rect> {
+    let status = show_bars(ui, state, entries, commands);
+    show_around_canvas(ui, state, commands);
+    status
+}
+
+/// Draws tools, strip and docks, in the order in which they are read.
+fn show_around_canvas(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     if !state.view.surrounds {
         if state.view.strip {
             strip::show(ui, state, commands);
@@ -68,30 +80,51 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comman
                 mark(ui, WindowPart::Panel);
                 step_panel(ui, state, commands);
             });
-    } else {
-        docks::show(ui, state, commands);
+        if !presents {
+            strip::show(ui, state, commands);
+        }
+        return;
     }
+    let docks = docks::reserve(ui);
     if !presents {
         strip::show(ui, state, commands);
     }
+    docks::show(ui, &docks, state, commands);
 }
 
-/// Draws the bars at the top and at the bottom of the window.
-fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], commands: &mut Vec<Command>) {
+/// Draws the status bar in its place, after the canvas.
+pub fn show_status(ui: &mut Ui, place: Rect, state: &FrameState<'_>) {
+    let mut bar = docks::in_place(ui, place, "in the status bar");
+    mark(&bar, WindowPart::Status);
+    let margin = bar_margin(2);
+    Frame::new().inner_margin(margin).show(&mut bar, |ui| status::status_bar(ui, state));
+}
+
+fn bar_margin(above: i8) -> Margin {
+    Margin::symmetric(metrics::PANEL_MARGIN as i8, above)
+}
+
+/// Draws the bars at the top and at the bottom of the window, but leaves the status bar empty. Returns its
+/// place.
+fn show_bars(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    entries: &[CatalogItem],
+    commands: &mut Vec<Command>,
+) -> Option<Rect> {
     let t = *tokens(ui);
-    let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 2));
+    let bar = Frame::new().fill(t.window).inner_margin(bar_margin(2));
+    let mut place = None;
     // egui puts the row of a menu bar at its top: the margin centres it.
     let above = ((metrics::MENU_BAR - metrics::ROW) / 2.0) as i8;
-    let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
+    let menu = bar.inner_margin(bar_margin(above));
     if state.view.surrounds {
         egui::Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| {
             mark(ui, WindowPart::Menus);
             bars::menu_bar(ui, state, entries, commands);
         });
-        egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| {
-            mark(ui, WindowPart::Status);
-            status::status_bar(ui, state);
-        });
+        let status = egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR);
+        place = Some(status.show(ui, |_| {}).response.rect);
     }
     if let Some(steps) = state.feature::<Stepping>().steps() {
         egui::Panel::bottom("steps")
@@ -105,6 +138,7 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comma
                 .show(ui, |ui| stepping::sentence::show(ui, steps));
         }
     }
+    place
 }
 
 /// Draws the panel in place of the docks while steps are shown.

@@ -49,17 +49,24 @@ fn a_screen_reader_reads_the_window_in_this_order() {
     );
 }
 
-/// Menus, tools, docks, canvas.
+/// Menus, tools, the strip of the tool, docks, canvas, status bar.
 #[test]
 fn the_parts_of_the_window_are_read_in_their_order() {
     let stops = [
         "Button: File",
         "Button: Help",
         "Button: Brush",
+        "Button: Undo",
+        "Button: Redo",
+        "Button: Fit domain",
+        "Slider: Radius",
+        "Button: View options",
         "Button: Layers",
         "ListBoxOption: Base",
         "Tab: Size",
         "Image: Mesh canvas",
+        "Definition: x",
+        "Definition: triangles",
     ];
     let places: Vec<_> = stops
         .iter()
