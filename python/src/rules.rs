@@ -94,7 +94,7 @@ impl Document {
             document.end_gesture();
             Ok(())
         })?;
-        Ok((found.bisected, found.left.iter().map(|broken| broken.found.len()).sum()))
+        Ok((found.bisected, found.places_left()))
     }
 }
 

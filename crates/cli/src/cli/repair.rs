@@ -14,7 +14,7 @@ use meshbrush_core::layers::{DistanceLayer, Layer, SizeFieldSpec};
 use meshbrush_io::io::layers::{ListsInPlace, SavedLayer};
 use meshbrush_io::io::recipe;
 use meshbrush_io::io::settings::{SavedLimits, SavedSettings};
-use meshbrush_io::io::solver_rules::{BrokenRule, Repaired, Solver, repaired};
+use meshbrush_io::io::solver_rules::{Repaired, Solver, repaired};
 use meshbrush_mesh::text::Grouped;
 
 /// What was done so that a mesh keeps the rules of a solver.
@@ -92,7 +92,7 @@ fn repair(read: &ToMesh, solver: Solver, terminal: &mut Terminal) -> Result<Repa
 
 impl RepairSummary {
     fn new(solver: Solver, repaired: &Repaired, before: &SizeFieldSpec) -> Self {
-        let Repaired { layers, h_min, bisected, left } = repaired;
+        let Repaired { layers, h_min, bisected, left: _ } = repaired;
         let saved = layers.iter().map(|layer| SavedLayer::of(layer, None, ListsInPlace::ALL)).collect();
         // Without a value of its own, the diameter at risk 1 would become less, too.
         let has_risk = before.layers.iter().any(Layer::is_of_risk);
@@ -103,7 +103,7 @@ impl RepairSummary {
         Self {
             solver: solver.word(),
             bisected: *bisected,
-            left: left.iter().map(|BrokenRule { found, .. }| found.len()).sum(),
+            left: repaired.places_left(),
             layers: layers.iter().filter_map(RepairLayer::of).collect(),
             name: solver.name(),
             h_min: *h_min,

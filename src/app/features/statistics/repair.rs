@@ -80,10 +80,9 @@ fn in_words(repaired: &Repaired, solver: Solver) -> String {
         let plural = if count == 1 { "" } else { "s" };
         format!("{} {noun}{plural}", format::count(count as u64))
     };
-    let left: usize = repaired.left.iter().map(|broken| broken.found.len()).sum();
-    let left = match left {
+    let left = match repaired.places_left() {
         0 => String::new(),
-        _ => format!(" Smaller triangles do not help at {}.", count(left, "place")),
+        left => format!(" Smaller triangles do not help at {}.", count(left, "place")),
     };
     match repaired.layers.len() {
         0 => format!("No triangle was bisected for {}.{left}", solver.name()),

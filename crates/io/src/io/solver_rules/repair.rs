@@ -54,6 +54,11 @@ pub struct Repaired {
 }
 
 impl Repaired {
+    /// Returns the number of places that smaller triangles could mend, and did not.
+    pub fn places_left(&self) -> usize {
+        self.left.iter().map(|broken| broken.found.len()).sum()
+    }
+
     /// Returns the settings with which the document has the layers, with names and identifiers of their own.
     pub fn settings_for(&self, document: &Document) -> Vec<Setting> {
         let mut layers = document.settings().layers.clone();
@@ -88,7 +93,8 @@ struct Finer {
     given_up: Vec<[DVec2; 3]>,
 }
 
-/// Returns layers with which a mesh keeps the rules of a solver, as far as smaller triangles help.
+/// Returns layers with which a mesh keeps the rules of a solver, as far as smaller triangles help: those that
+/// leave the fewest places.
 ///
 /// `make` makes the mesh of a description, whose targets it multiplies by `scale`; `marks` are the names of
 /// its boundary. The vertex rule looks at h̄ in nodes only, so under it the layers change nothing.
@@ -103,8 +109,10 @@ pub fn repaired<E>(
     mut make: impl FnMut(MeshSpec) -> Result<BuiltMesh, E>,
 ) -> Result<Repaired, E> {
     let mut finer = Finer::default();
-    for meshes in 1.. {
+    let mut best: Option<Repaired> = None;
+    for _ in 0..MOST_MESHES {
         let (layers, h_min) = finer.ask(spec, solver, scale);
+        let bisected = finer.triangles.len();
         let mut asking = spec.clone();
         asking.field.layers.extend(layers.iter().cloned());
         asking.field.transfer.h_min = h_min.unwrap_or(spec.field.transfer.h_min);
@@ -112,11 +120,17 @@ pub fn repaired<E>(
         let derived = DerivedMesh::new(&built.mesh, &built.domain, &spec.cleaning);
         let extract = derived.extract(&built.mesh);
         let left = broken_in(&extract, spec, marks, solver);
-        if !finer.learn(&built, &extract, &left) || meshes == MOST_MESHES {
-            return Ok(Repaired { layers, h_min, bisected: finer.triangles.len(), left });
+        let goes_on = finer.learn(&built, &extract, &left);
+        let found = Repaired { layers, h_min, bisected, left };
+        // In a sharp corner several small triangles can break the rule of a large one.
+        if best.as_ref().is_none_or(|best| found.places_left() < best.places_left()) {
+            best = Some(found);
+        }
+        if !goes_on {
+            break;
         }
     }
-    unreachable!("the loop returns")
+    Ok(best.expect("one mesh at least was looked at"))
 }
 
 /// Returns the broken rules that smaller triangles can mend. They are about the boundary and not about
