@@ -175,15 +175,22 @@ class Mesh:
         crs: str | None = None,
         cells: str | None = None,
         values: Mapping[str, npt.ArrayLike] | None = None,
+        quantities: list[str] | None = None,
+        grids: list[dict[str, str]] | None = None,
     ) -> dict[str, Any]:
         """Says where the mesh, as a file of a solver has it, breaks the rules of that solver.
 
         `solver` is adcirc, schism, swan, telemac, fvcom, ww3, delft3dfm, mike or modflow. The answer is that of `meshbrush
         check --json`: `violations` and `notes` are lists with `rule`, `place` in the coordinates of the file, `source` and
-        `sentence`. `crs`, `cells` ("triangles" or "squares") and the `depth` of `values` are as for `write`.
+        `sentence`. `crs`, `cells` ("triangles" or "squares"), and the `depth` of `values`, `quantities` and `grids`, are as
+        for `write`.
         """
-        answer: dict[str, Any] = json.loads(self._core.check(solver, crs, cells, _named(values)))
-        return answer
+        output = {"file": "", "quantities": list(quantities or []), "grids": _grids(grids)}
+        answer, notes = self._core.check(output, solver, crs, cells, _named(values))
+        for note in notes:
+            warnings.warn(note, MeshbrushWarning, stacklevel=2)
+        found: dict[str, Any] = json.loads(answer)
+        return found
 
     def nodes_in(self, crs: str) -> npt.NDArray[np.float64]:
         """Returns the nodes of a mesh in the plane of a projection in other coordinates: "lonlat" or "EPSG:…"."""
@@ -218,6 +225,7 @@ class Mesh:
         *,
         values: Mapping[str, npt.ArrayLike] | None = None,
         quantities: list[str] | None = None,
+        grids: list[dict[str, str]] | None = None,
         format: str | None = None,  # noqa: A002
         binary: bool = False,
         flat: bool = False,
@@ -235,17 +243,19 @@ class Mesh:
         """Writes the mesh in the format of the ending, and returns the files.
 
         `values` are numbers at the nodes by their names, and `quantities` formulas, as in "depth = 20 - x"; solvers read
-        `depth`. `format` names one that the ending does not. `crs` is "plane", "lonlat" or "EPSG:…" for a mesh in the
-        plane of a projection. With a surface the third coordinate of a node is its height, in formats that have one, and 0
-        where `flat`. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg. With `view="space"` a .png
-        shows the mesh as a surface, with the heights of layers of surfaces or else of depths; see `picture`.
+        `depth`. In a formula `depth` is that of layers of depths, as in "depth = max(depth, 3)". `grids` are means of pixels
+        over the cells of nodes, as in {"name": "manning", "file": "landcover.tif", "table": "classes.csv"}; a grid of values
+        has no table of classes. `format` names one that the ending does not. `crs` is "plane", "lonlat" or "EPSG:…" for a
+        mesh in the plane of a projection. With a surface the third coordinate of a node is its height, in formats that have
+        one, and 0 where `flat`. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg. With `view="space"`
+        a .png shows the mesh as a surface, with the heights of layers of surfaces or else of depths; see `picture`.
         """
         space = _space(view, azimuth, altitude, exaggeration)
         output = _look(as_path(path) or path, size, edges, colormap, light) | space
-        output.update(binary=bool(binary), flat=bool(flat), quantities=list(quantities or []))
+        output.update(binary=bool(binary), flat=bool(flat), quantities=list(quantities or []), grids=_grids(grids))
         with watching(progress) as watch:
-            files, note = self._core.write(output, format, crs, _named(values), watch)
-        if note is not None:
+            files, notes = self._core.write(output, format, crs, _named(values), watch)
+        for note in notes:
             warnings.warn(note, MeshbrushWarning, stacklevel=2)
         return [str(file) for file in files]
 
@@ -355,6 +365,10 @@ def _look(
     elif isinstance(size, int):
         size = str(size)
     return {"file": file, "size": size, "edges": edges, "colormap": colormap, "light": light}
+
+
+def _grids(grids: list[dict[str, str]] | None) -> list[dict[str, Any]]:
+    return [{key: as_path(value) or value for key, value in grid.items()} for grid in grids or []]
 
 
 def _space(

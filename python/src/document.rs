@@ -301,6 +301,8 @@ pub fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
         marks: settings.boundary_marks.clone(),
         unit: settings.unit,
         coordinates: state.coordinates,
+        // A document does not keep what was said about its files.
+        assumed: None,
     }
 }
 

@@ -301,7 +301,8 @@ impl Mesh {
         })
     }
 
-    /// Writes files, and returns their names, and a note where a coastal solver finds no open boundary.
+    /// Writes files, and returns their names, and notes: on quantities, and where a coastal solver finds no
+    /// open boundary.
     #[pyo3(signature = (output, format, crs, values, watching))]
     fn write(
         slf: &Bound<'_, Self>,
@@ -310,7 +311,7 @@ impl Mesh {
         crs: Option<&str>,
         values: Vec<(String, PyReadonlyArray1<'_, f64>)>,
         watching: Watching,
-    ) -> PyResult<(Vec<PathBuf>, Option<String>)> {
+    ) -> PyResult<(Vec<PathBuf>, Vec<String>)> {
         let shared = slf.get().0.clone();
         let table = text_value(output)?;
         let requested = SavedOutput::of_value(&table)
@@ -337,8 +338,10 @@ impl Mesh {
                 let (finished, provenance) = (&shared.finished, &provenance);
                 let exported =
                     ExportedMesh { finished, extract, details, provenance, coordinates, target_diameter };
-                let files = requested.write(&exported, values, &watch.meter)?;
-                Ok((files, requested.closed_note(details)))
+                let mut notes = Vec::new();
+                let files = requested.write(&exported, values, &mut notes, &watch.meter)?;
+                notes.extend(requested.closed_note(details));
+                Ok((files, notes))
             })
         })?;
         written.map_err(|failure| match failure {

@@ -5,29 +5,34 @@ use meshbrush_cli::cli::details::provenance_from;
 use meshbrush_cli::cli::exported_mesh::ExportedMesh;
 use meshbrush_cli::cli::failure::Failure;
 use meshbrush_cli::cli::output_coordinates::OutputCoordinates;
+use meshbrush_cli::cli::requested_files::quantities_of;
 use meshbrush_core::field::RefinementRule;
+use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::solver_rules::{Solver, repaired};
-use meshbrush_io::io::{CellShape, DEPTH, MeshSource, NodeValues};
+use meshbrush_io::io::{CellShape, MeshSource};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::document::{Document, built, lock, origin_of};
-use crate::errors::mesh_error;
+use crate::errors::{fault_in, mesh_error};
 use crate::mesh::{Mesh, values_at_nodes};
+use crate::values::text_value;
 use crate::work::{Watching, run};
 
 #[pymethods]
 impl Mesh {
     /// Says where the mesh as a file of a solver has it breaks its rules: the text of `meshbrush check
-    /// --json`.
-    #[pyo3(signature = (solver, crs, cells, values))]
+    /// --json`, and notes on quantities. `output` has the quantities and grids of a file.
+    #[pyo3(signature = (output, solver, crs, cells, values))]
     fn check(
         slf: &Bound<'_, Self>,
+        output: &Bound<'_, PyDict>,
         solver: &str,
         crs: Option<&str>,
         cells: Option<&str>,
         values: Vec<(String, PyReadonlyArray1<'_, f64>)>,
-    ) -> PyResult<String> {
+    ) -> PyResult<(String, Vec<String>)> {
         let shared = slf.get().0.clone();
         let solver: Solver = solver.parse().map_err(mesh_error)?;
         let cells = cells.map(str::parse::<CellShape>).transpose();
@@ -36,13 +41,12 @@ impl Mesh {
             Some(text) => text.parse().map_err(|error| mesh_error(format!("crs: {error}")))?,
             None => OutputCoordinates::from(shared.finished.coordinates()),
         };
-        let mut values = values_at_nodes(values, shared.counts()[0])?;
+        let table = text_value(output)?;
+        let quantities = SavedOutput::of_value(&table).and_then(|saved| quantities_of(&saved));
+        let quantities = quantities.map_err(|fault| fault_in(&table, &fault))?;
+        let values = values_at_nodes(values, shared.counts()[0])?;
         let answer = run(slf.py(), &Watching::QUIET, move |_| {
             let details = shared.details().map_err(|problem| Failure::Work(problem.to_owned()))?;
-            let of_layers = details.depths.as_ref().map(|depths| depths.depths.clone());
-            if !values.iter().any(|values| values.name == DEPTH) {
-                values.extend(of_layers.map(|values| NodeValues { name: DEPTH.into(), values }));
-            }
             let source = MeshSource::Document(&shared.name);
             let provenance = &provenance_from(&shared.finished, source, None, coordinates);
             shared.with_extract(|extract| {
@@ -55,10 +59,13 @@ impl Mesh {
                     coordinates,
                     target_diameter: &[],
                 };
-                FileToCheck { exported, values: &values, cells, solver }.as_json()
+                let mut notes = Vec::new();
+                let values = &exported.values_at_nodes(&quantities, values, &mut notes)?;
+                let answer = FileToCheck { exported, values, cells, solver }.as_json()?;
+                Ok((answer, notes))
             })
         })?;
-        answer.map_err(mesh_error)
+        answer.map_err(|failure: Failure| mesh_error(failure))
     }
 }
 

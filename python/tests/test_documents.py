@@ -405,7 +405,7 @@ def test_a_mistake_in_a_formula_has_its_place() -> None:
     ]
     document = square(h_min=0.01)
     for number in range(70):
-        wrong = ["größe", "depth" if number % len(places) > 0 else "depht"][random.integers(2)]
+        wrong = ["größe", "depth" if number % len(places) in range(1, 5) else "depht"][random.integers(2)]
         terms = [str(term) for term in random.choice(["x", "2.5", "sin(y)", "(1 + x)", "θ", "r"], random.integers(1, 5))]
         terms.insert(random.integers(len(terms) + 1), wrong)
         with pytest.raises(mb.FormulaError) as caught:
@@ -760,3 +760,23 @@ def test_rules_of_solvers_are_checked_and_repaired() -> None:
     assert document.mesh().fingerprint == before
     with pytest.raises(mb.MeshError, match="is no solver whose rules are known"):
         mesh.check("roms")
+
+
+def test_quantities_may_use_the_depth_and_grids(tmp_path: Path) -> None:
+    for name, value in (("depth.asc", "5"), ("cover.asc", "11")):
+        head = "ncols 4\nnrows 4\nxllcorner -1\nyllcorner -1\ncellsize 1\n"
+        (tmp_path / name).write_text(head + 4 * (4 * f"{value} " + "\n"))
+    (tmp_path / "n.csv").write_text("class,value\n11,0.02\n")
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.5)
+    document.layers.depth(tmp_path / "depth.asc")
+    mesh = document.mesh()
+    path = tmp_path / "a.node"
+    grids = [{"name": "manning", "file": tmp_path / "cover.asc", "table": tmp_path / "n.csv"}]
+    mesh.write(path, quantities=["half = depth/2"], grids=grids)
+    rows = [line.split() for line in path.read_text().splitlines() if not line.startswith("#")]
+    assert {tuple(map(float, row[4:6])) for row in rows[1:]} == {(2.5, 0.02)}, rows[1]
+    found = [mesh.check("adcirc", quantities=quantities) for quantities in ([], ["depth = depth - 6"])]
+    dry = [[rule["count"] for rule in answer["rules"] if rule["rule"] == "dry_node"] for answer in found]
+    assert dry == [[0], [len(mesh.nodes)]]
+    with pytest.raises(mb.MeshError, match="there is no such file"):
+        mesh.check("adcirc", grids=[{"name": "depth", "file": tmp_path / "none.asc"}])

@@ -599,6 +599,79 @@ fn depths_in_files_are_no_less_than_the_least_depth() {
     assert_eq!((notes(&checked), notes(&folder.run(raised).json())), (12, 0));
 }
 
+/// The rows of the nodes of `.14`: the fourth number of each is the depth.
+fn depths_of(text: &str) -> Vec<f64> {
+    let nodes = text.lines().nth(1).unwrap().split(' ').nth(1).unwrap().parse().unwrap();
+    let rows = text.lines().skip(2).take(nodes);
+    rows.map(|row| row.split(' ').nth(3).unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn formulas_of_quantities_may_use_the_depth_of_layers() {
+    let folder = Folder::new("depth-quantity");
+    folder.file("bay.asc", Bay::new().grid(|_, _| true));
+    let sea = "mesh --domain 1000,1000,75000,45000 --spacing 2000 --depth bay.asc";
+    let run = |options: &str| {
+        let ran = folder.run(format!("{sea} {options}").as_str());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        ran
+    };
+    run("-o plain.14");
+    let plain = depths_of(&folder.read("plain.14"));
+    assert!(plain.iter().any(|depth| *depth < 3.0) && plain.iter().any(|depth| *depth > 20.0));
+    // A least depth changes files, and not what formulas see.
+    let options = ["--quantity", "depth=max(depth,3)", "--quantity", "n=if(depth>20, 0.02, 0.03+depth/1e4)"];
+    let words: Vec<&str> = sea.split(' ').chain(options).chain(["--least-depth", "4"]).collect();
+    let ran = folder.run([&words[..], &["-o", "made.14", "-o", "made.node", "--json"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let expected: Vec<f64> = plain.iter().map(|depth| depth.max(4.0)).collect();
+    assert_eq!(depths_of(&folder.read("made.14")), expected);
+    let raised = plain.iter().filter(|depth| **depth < 4.0).count();
+    assert_eq!(ran.json()["least_depth"], serde_json::json!({ "depth": 4.0, "raised": raised }));
+    let text = folder.read("made.node");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let manning = rows.map(|row| row.split_whitespace().nth(5).unwrap().parse().unwrap());
+    let expected = plain.iter().map(|depth| if *depth > 20.0 { 0.02 } else { 0.03 + depth / 1e4 });
+    assert_eq!(manning.collect::<Vec<f64>>(), expected.collect::<Vec<_>>());
+    // In a picture there are no values, and the formula is no mistake.
+    run("--quantity depth=depth+1 -o sea.png");
+    // The other front ends see the same.
+    folder.file(
+        "sea.toml",
+        "[domain]\nbounds = [1000, 1000, 75000, 45000]\n[mesh]\nspacing = 2000\n[[layer]]\nkind = \"depth\"\nfile = \
+         \"bay.asc\"\n[[output]]\nfile = \"recipe.14\"\nquantities = [\"depth = max(depth, 3)\"]\n",
+    );
+    assert_eq!(folder.run("mesh sea.toml").status, 0);
+    let expected: Vec<f64> = plain.iter().map(|depth| depth.max(3.0)).collect();
+    assert_eq!(depths_of(&folder.read("recipe.14")), expected);
+    let dry = |options: &str| {
+        let answer =
+            folder.run(format!("{} --for adcirc --json {options}", sea.replace("mesh", "check")).as_str());
+        let answer = answer.json();
+        let rules = answer["rules"].as_array().unwrap();
+        let dry = rules.iter().find(|rule| rule["rule"] == "dry_node").unwrap();
+        dry["count"].as_u64().unwrap()
+    };
+    assert!(dry("--quantity depth=depth-20") > 0 && dry("--quantity depth=max(depth,3)") == 0);
+}
+
+#[test]
+fn a_quantity_of_the_depth_needs_a_layer_of_depths() {
+    let folder = Folder::new("depth-quantity-none");
+    let recipe = "[mesh]\nspacing = 0.5\n[[output]]\nfile = \"a.14\"\nquantities = [\"n = depth/2\"]\n";
+    folder.file("a.toml", recipe);
+    for words in [
+        "mesh --spacing 0.5 -o a.14 --quantity n=depth/2",
+        "check --spacing 0.5 --for adcirc --quantity n=depth/2",
+        "mesh a.toml",
+    ] {
+        let ran = folder.run(words);
+        let sentence = "The quantity n is depth/2, and `depth` in it is the depth of layers at a node";
+        assert!(ran.status == 2 && ran.err.contains(sentence), "{words}: {}", ran.err);
+    }
+    assert!(!folder.has("a.14"));
+}
+
 #[test]
 fn the_largest_time_step_is_known_for_a_depth_that_is_given() {
     let folder = Folder::new("depth-step");

@@ -17,6 +17,7 @@ mod one_program;
 mod path_cli;
 mod path_routes;
 mod project;
+mod quantities;
 mod readme;
 mod recipe;
 mod partition;

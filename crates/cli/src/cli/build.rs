@@ -18,7 +18,7 @@ use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField, SurfaceNorm};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::SurfaceFit;
-use meshbrush_io::io::{Cancelled, Meter};
+use meshbrush_io::io::{Cancelled, DocumentPlane, Meter};
 use meshbrush_mesh::mesh::{CoarseError, Extract, InvalidTarget, Mesh, Progress, TreeTriangle, TriangleId};
 use meshbrush_mesh::text::{Grouped, LengthUnit};
 
@@ -51,6 +51,8 @@ pub struct MeshOrigin {
     pub unit: LengthUnit,
     /// The coordinates of exported files, unless others are asked for; see [`ToMesh`].
     pub coordinates: Coordinates,
+    /// What coordinates of files are that do not name a known system.
+    pub assumed: Option<Coordinates>,
 }
 
 impl FinishedMesh {
@@ -188,6 +190,12 @@ impl FinishedMesh {
         &self.origin.spec
     }
 
+    /// Returns the plane of the domain, if it is that of a projection, for files that are read into it.
+    pub fn plane(&self) -> Option<DocumentPlane> {
+        let plane = |projection| DocumentPlane { projection, assumed: self.origin.assumed };
+        self.domain().projection.map(plane)
+    }
+
     /// Returns how lengths and areas are measured.
     pub fn ground(&self) -> &Ground {
         self.ground.get_or_init(|| self.domain().ground())
@@ -273,8 +281,8 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
 impl ToMesh {
     /// Returns what the mesh is made from.
     pub fn origin(self) -> MeshOrigin {
-        let Self { spec, paint, marks, unit, coordinates, paths: _, scale: _ } = self;
-        MeshOrigin { spec, paint, marks, unit, coordinates }
+        let Self { spec, paint, marks, unit, coordinates, assumed, paths: _, scale: _ } = self;
+        MeshOrigin { spec, paint, marks, unit, coordinates, assumed }
     }
 }
 

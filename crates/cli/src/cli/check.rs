@@ -7,7 +7,6 @@ use serde::Serialize;
 
 use super::args::CheckArguments;
 use super::build::FinishedMesh;
-use super::depths::LeastDepth;
 use super::details::{DetailUses, MeshDetails};
 use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
@@ -19,7 +18,7 @@ use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
 };
-use meshbrush_io::io::{CellShape, DEPTH, MeshData, NodeValues, SURFACE};
+use meshbrush_io::io::{CellShape, MeshData, NodeValues};
 use meshbrush_mesh::text::{Grouped, Number};
 
 /// How many places of a rule are printed one by one; JSON has all.
@@ -36,29 +35,17 @@ pub fn run(
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let input = Input::new(&typed.input)?.scaled(typed.scale.unwrap_or(1.0));
-    let quantities = typed_quantities(&typed.quantity)?;
+    let quantities = typed_quantities(&typed.quantities)?;
+    input.check_depth_for(quantities.iter().find(|quantity| quantity.uses_depth()))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
     let repair_for = typed.repair.then_some((typed.solver, "--repair"));
     let (finished, repaired) = build_for(&input, repair_for, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
-    let uses = DetailUses { node_data: true, least_depth: typed.least_depth, ..DetailUses::default() };
-    let details = MeshDetails::of(&finished, &extract, line, &input, coordinates, uses);
-    let details = details.map_err(|error| Failure::Work(error.to_string()))?;
-    let of_layers = details.depths.as_ref().map(|depths| depths.depths.clone());
-    let mut values = quantities.iter().map(|of| of.at_nodes(&extract)).collect::<Result<Vec<_>, _>>()?;
-    let given = values.iter_mut().find(|values| values.name == DEPTH);
-    if let (Some(given), Some(least)) = (given, typed.least_depth) {
-        LeastDepth::raise(least, &mut given.values);
-    }
-    if !values.iter().any(|values| values.name == DEPTH) {
-        values.extend(of_layers.map(|values| NodeValues { name: DEPTH.into(), values }));
-    }
-    if !values.iter().any(|values| values.name == SURFACE) {
-        let heights = details.heights.clone();
-        values.extend(heights.map(|values| NodeValues { name: SURFACE.into(), values }));
-    }
+    let given_depth = quantities.iter().find(|quantity| quantity.is_depth());
+    let uses = DetailUses { json: false, node_data: true, given_depth, least_depth: typed.least_depth };
+    let details = MeshDetails::of(&finished, &extract, line, &input, coordinates, uses)?;
     let provenance = &details.provenance;
     let exported = ExportedMesh {
         finished: &finished,
@@ -68,6 +55,9 @@ pub fn run(
         coordinates,
         target_diameter: &[],
     };
+    let mut notes = details.quantity_notes.clone();
+    let values = exported.values_at_nodes(&quantities, Vec::new(), &mut notes)?;
+    notes.iter().for_each(|note| terminal.note(note));
     let cells = typed.cells.unwrap_or_default();
     let file = FileToCheck { exported, values: &values, cells, solver: typed.solver };
     let (written, broken) = terminal.while_working("checking the rules", || file.broken())?;

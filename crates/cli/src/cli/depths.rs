@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use meshbrush_core::layers::{EdgeTimes, LargestTimeStep};
+use meshbrush_core::layers::{CourantFit, DepthFit, EdgeTimes, LargestTimeStep, NodeDepths};
 use meshbrush_mesh::mesh::{Extract, TriangleId};
 
 /// A least depth, and what it changed.
@@ -74,6 +74,65 @@ impl HeightTimeStep {
         let steps = (0..view.triangles().len()).map(TriangleId::from_index).filter_map(step);
         // Of equal ones the first.
         steps.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+}
+
+/// How far depths that are linear over triangles are from the pixels of the layers of depths.
+#[derive(Clone, Debug, Serialize)]
+pub struct DepthSummary {
+    /// Pixels that were compared.
+    pub pixels: usize,
+    /// The largest difference of either sign, in metres.
+    pub largest_error: f64,
+    /// Where that is.
+    pub at: [f64; 2],
+    /// The square root of the mean of the squares, in metres.
+    pub rms_error: f64,
+    /// The mean, in metres: positive where the mesh holds more water.
+    pub mean_error: f64,
+    /// Nodes outside the layers of depths, which have the depth of the nearest pixel.
+    pub filled_nodes: usize,
+    /// The distance of the farthest of these pixels.
+    pub farthest_filled: f64,
+}
+
+impl From<&NodeDepths> for DepthSummary {
+    fn from(depths: &NodeDepths) -> Self {
+        let NodeDepths { depths: _, filled, farthest, fit } = depths;
+        let DepthFit { pixels, largest, at, rms, mean } = *fit;
+        Self {
+            pixels,
+            largest_error: largest,
+            at: at.into(),
+            rms_error: rms,
+            mean_error: mean,
+            filled_nodes: *filled,
+            farthest_filled: *farthest,
+        }
+    }
+}
+
+/// The Courant numbers of edges, u Δt / L, for a layer that keeps them below a number.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CourantSummary {
+    /// The number that was given.
+    pub limit: f64,
+    /// The time step, in seconds.
+    pub time_step: f64,
+    /// The edges with water at an end.
+    pub edges: usize,
+    /// The number of these edges that exceed the limit.
+    pub above: usize,
+    /// The largest Courant number.
+    pub largest: f64,
+    /// The middle of the edge that has it.
+    pub at: [f64; 2],
+}
+
+impl From<CourantFit> for CourantSummary {
+    fn from(fit: CourantFit) -> Self {
+        let CourantFit { limit, time_step, edges, above, largest, at } = fit;
+        Self { limit, time_step, edges, above, largest, at: at.into() }
     }
 }
 

@@ -4,12 +4,14 @@ use serde::Serialize;
 
 use super::build::FinishedMesh;
 use super::depths::{LeastDepth, TimeStepSummary};
+use super::failure::Failure;
 use super::input::Input;
 use super::output_coordinates::OutputCoordinates;
 use super::quality::QualitySummary;
+use super::quantities::NamedQuantity;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{CourantFit, DepthFit, Layer, NoDepth, NodeDepths, StraitCount, Straits};
+use meshbrush_core::layers::{CourantFit, Layer, NodeDepths, StraitCount, Straits};
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{JoinedCells, MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -25,8 +27,14 @@ pub struct MeshDetails {
     pub joined: JoinedCells,
     /// The origin of the mesh.
     pub provenance: Provenance,
-    /// The depths at the nodes, if a layer has them and they are wanted.
+    /// The depths at the nodes as files get them, if a layer has them and they are wanted.
     pub depths: Option<NodeDepths>,
+    /// What these depths were before they were changed for files, where that is asked for.
+    unchanged_depths: Option<Vec<f64>>,
+    /// The quantity that gives the depth in place of layers, and the depths as files get them.
+    given: Option<(NamedQuantity, Vec<f64>)>,
+    /// What a person should know about its values.
+    pub quantity_notes: Vec<String>,
     /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
     pub courant: Option<CourantFit>,
     /// What h̄ of the mesh is multiplied by in files: less than 1 where its triangles were cut.
@@ -52,8 +60,8 @@ pub struct DetailUses<'a> {
     pub json: bool,
     /// Files with values at the nodes.
     pub node_data: bool,
-    /// The depth at each node, where a quantity gives it in place of layers.
-    pub given_depths: Option<&'a [f64]>,
+    /// The quantity that gives the depth at each node in place of layers, if one does.
+    pub given_depth: Option<&'a NamedQuantity>,
     /// The least depth in files, in metres.
     pub least_depth: Option<f64>,
 }
@@ -62,7 +70,8 @@ impl MeshDetails {
     /// Collects the details of an exported mesh that the command `line` requested.
     ///
     /// # Errors
-    /// Fails when there are layers of depths, and a node is far from all of them.
+    /// Fails when there are layers of depths, and a node is far from all of them; and when the quantity for
+    /// the depth has no value at a node.
     pub fn of(
         finished: &FinishedMesh,
         extract: &Extract,
@@ -70,7 +79,7 @@ impl MeshDetails {
         input: &Input,
         coordinates: OutputCoordinates,
         uses: DetailUses<'_>,
-    ) -> Result<Self, NoDepth> {
+    ) -> Result<Self, Failure> {
         Self::with_provenance(finished, extract, provenance(finished, line, input, coordinates), uses)
     }
 
@@ -83,15 +92,24 @@ impl MeshDetails {
         extract: &Extract,
         provenance: Provenance,
         uses: DetailUses<'_>,
-    ) -> Result<Self, NoDepth> {
+    ) -> Result<Self, Failure> {
         let layers = finished.layers();
-        let mut depths = match uses.json || uses.node_data {
+        let is_in_formula = uses.given_depth.is_some_and(NamedQuantity::uses_depth);
+        let mut depths = match uses.json || uses.node_data || is_in_formula {
             true => NodeDepths::of(layers, extract.view()).transpose()?,
             false => None,
         };
-        let mut given = uses.given_depths.map(<[f64]>::to_vec);
-        let raised = [depths.as_mut().map(|depths| &mut depths.depths), given.as_mut()]
-            .map(|values| Some(LeastDepth::raise(uses.least_depth?, values?)));
+        let of_layers = depths.as_ref().map(|depths| &*depths.depths);
+        let mut quantity_notes = Vec::new();
+        let mut given = None;
+        if let Some(quantity) = uses.given_depth {
+            let values = quantity.at_nodes(finished, extract, of_layers, &mut quantity_notes)?.values;
+            given = Some((quantity.clone(), values));
+        }
+        let unchanged_depths = uses.least_depth.and(of_layers).map(<[f64]>::to_vec);
+        let raised =
+            [depths.as_mut().map(|depths| &mut depths.depths), given.as_mut().map(|(_, values)| values)]
+                .map(|values| Some(LeastDepth::raise(uses.least_depth?, values?)));
         let [of_layers, of_quantity] = raised;
         let least_depth = of_quantity.or(of_layers);
         let provenance = match least_depth {
@@ -102,7 +120,7 @@ impl MeshDetails {
             let ground = finished.ground();
             CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
         });
-        let known = given.as_deref().or(depths.as_ref().map(|depths| &*depths.depths));
+        let known = given.as_ref().map(|(_, depths)| depths).or(depths.as_ref().map(|of| &of.depths));
         let largest_time_step = known.and_then(|depths| TimeStepSummary::of(finished, extract, depths));
         let quality = uses.json.then(|| QualitySummary::of(finished, extract, depths.as_ref()));
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
@@ -116,6 +134,9 @@ impl MeshDetails {
             joined: JoinedCells::default(),
             provenance,
             depths,
+            unchanged_depths,
+            given,
+            quantity_notes,
             courant,
             target_factor: 1.0,
             least_depth,
@@ -125,6 +146,18 @@ impl MeshDetails {
             heights,
             straits,
         })
+    }
+
+    /// Returns the depths of layers at the nodes, before they were changed for files.
+    pub fn depths_of_layers(&self) -> Option<&[f64]> {
+        let written = self.depths.as_ref().map(|depths| &*depths.depths);
+        self.unchanged_depths.as_deref().or(written)
+    }
+
+    /// Returns the depths that a quantity gives, as files get them, if it is the one that counts for the
+    /// mesh.
+    pub fn given_depths(&self, quantity: &NamedQuantity) -> Option<&[f64]> {
+        self.given.as_ref().filter(|(own, _)| own == quantity).map(|(_, depths)| &**depths)
     }
 
     /// Returns the number of triangles of each part.
@@ -203,65 +236,6 @@ impl SurfaceSummary {
             missing_samples: count.missing,
             missing_share: count.missing_share(),
         }
-    }
-}
-
-/// How far depths that are linear over triangles are from the pixels of the layers of depths.
-#[derive(Clone, Debug, Serialize)]
-pub struct DepthSummary {
-    /// Pixels that were compared.
-    pub pixels: usize,
-    /// The largest difference of either sign, in metres.
-    pub largest_error: f64,
-    /// Where that is.
-    pub at: [f64; 2],
-    /// The square root of the mean of the squares, in metres.
-    pub rms_error: f64,
-    /// The mean, in metres: positive where the mesh holds more water.
-    pub mean_error: f64,
-    /// Nodes outside the layers of depths, which have the depth of the nearest pixel.
-    pub filled_nodes: usize,
-    /// The distance of the farthest of these pixels.
-    pub farthest_filled: f64,
-}
-
-impl From<&NodeDepths> for DepthSummary {
-    fn from(depths: &NodeDepths) -> Self {
-        let NodeDepths { depths: _, filled, farthest, fit } = depths;
-        let DepthFit { pixels, largest, at, rms, mean } = *fit;
-        Self {
-            pixels,
-            largest_error: largest,
-            at: at.into(),
-            rms_error: rms,
-            mean_error: mean,
-            filled_nodes: *filled,
-            farthest_filled: *farthest,
-        }
-    }
-}
-
-/// The Courant numbers of edges, u Δt / L, for a layer that keeps them below a number.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct CourantSummary {
-    /// The number that was given.
-    pub limit: f64,
-    /// The time step, in seconds.
-    pub time_step: f64,
-    /// The edges with water at an end.
-    pub edges: usize,
-    /// The number of these edges that exceed the limit.
-    pub above: usize,
-    /// The largest Courant number.
-    pub largest: f64,
-    /// The middle of the edge that has it.
-    pub at: [f64; 2],
-}
-
-impl From<CourantFit> for CourantSummary {
-    fn from(fit: CourantFit) -> Self {
-        let CourantFit { limit, time_step, edges, above, largest, at } = fit;
-        Self { limit, time_step, edges, above, largest, at: at.into() }
     }
 }
 

@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 
 use super::build::FinishedMesh;
+use super::depths::LeastDepth;
 use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::Output;
 use super::output_coordinates::OutputCoordinates;
+use super::quantities::NamedQuantity;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::{
-    CellShape, JoinedCells, MeshData, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
+    CellShape, DEPTH, JoinedCells, MeshData, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
 };
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
@@ -59,6 +61,40 @@ impl ExportedMesh<'_> {
             }
             _ => output.write(mesh, placed, data, look, meter),
         }
+    }
+
+    /// Returns the values at the nodes: those given, the quantities, and the depths and surfaces of layers,
+    /// unless one of them is called so. What a person should know about quantities is added to `notes`.
+    ///
+    /// # Errors
+    /// Fails when a quantity has no value at a node.
+    pub fn values_at_nodes(
+        &self,
+        quantities: &[NamedQuantity],
+        mut values: Vec<NodeValues>,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<NodeValues>, Failure> {
+        let details = self.details;
+        for quantity in quantities {
+            if let Some(depths) = details.given_depths(quantity) {
+                values.push(NodeValues { name: DEPTH.into(), values: depths.to_vec() });
+                continue;
+            }
+            let of_layers = details.depths_of_layers();
+            let mut found = quantity.at_nodes(self.finished, self.extract, of_layers, notes)?;
+            if let (true, Some(LeastDepth { depth, .. })) = (quantity.is_depth(), details.least_depth) {
+                LeastDepth::raise(depth, &mut found.values);
+            }
+            values.push(found);
+        }
+        let depths = details.depths.as_ref().map(|depths| (DEPTH, depths.depths.clone()));
+        let heights = details.heights.as_ref().map(|heights| (SURFACE, heights.clone()));
+        for (name, of_layers) in depths.into_iter().chain(heights) {
+            if !values.iter().any(|values| values.name == name) {
+                values.push(NodeValues { name: name.into(), values: of_layers });
+            }
+        }
+        Ok(values)
     }
 
     /// Returns the data of the mesh with these values at the nodes. A flat mesh has no heights.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use meshbrush_core::build::BuildError;
 use meshbrush_core::field::TransferError;
+use meshbrush_core::layers::NoDepth;
 use meshbrush_core::path::PathError;
 use meshbrush_io::io::ReadError;
 use meshbrush_io::io::recipe::LoadError;
@@ -89,6 +90,12 @@ impl From<LoadError> for Failure {
                 Self::Work(error.to_string())
             }
         }
+    }
+}
+
+impl From<NoDepth> for Failure {
+    fn from(error: NoDepth) -> Self {
+        Self::Work(error.to_string())
     }
 }
 

@@ -11,6 +11,7 @@ use super::failure::Failure;
 use super::lengths::LengthWithUnit;
 use super::options;
 use super::output::is_standard_stream;
+use super::quantities::NamedQuantity;
 use super::terminal::Terminal;
 use meshbrush_core::build::MeshSpec;
 use meshbrush_core::document::{PathPlan, Settings};
@@ -18,6 +19,7 @@ use meshbrush_core::domain::BoundaryMarks;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::geojson::{self, Outline};
+use meshbrush_io::io::layers::SavedKind;
 use meshbrush_io::io::recipe::{self, Loaded, Loading, Recipe};
 use meshbrush_io::io::settings::{LoadingDefaults, SavedSettings, SavedTreatment};
 use meshbrush_io::io::shape_format;
@@ -58,6 +60,8 @@ pub struct ToMesh {
     /// The coordinates of exported files, unless others are asked for: those of the domain's file. They count
     /// only where the mesh is in the plane of a projection.
     pub coordinates: Coordinates,
+    /// What coordinates of files are that do not name a known system.
+    pub assumed: Option<Coordinates>,
     /// The paths of a project or a recipe.
     pub paths: Arc<PathPlan>,
     /// What all targets are multiplied by; the largest diameter at the outline is already.
@@ -116,6 +120,19 @@ impl Input {
         unused.into_iter().flatten().map(str::to_owned).collect()
     }
 
+    /// Checks that there are depths for a quantity that uses them, before anything is made. The layers of a
+    /// project are not known yet.
+    ///
+    /// # Errors
+    /// Fails with a sentence that names the quantity.
+    pub fn check_depth_for(&self, quantity: Option<&NamedQuantity>) -> Result<(), Failure> {
+        let has_depths = self.settings.layer.iter().any(|layer| layer.kind() == SavedKind::Depth);
+        match quantity {
+            Some(quantity) if self.project.is_none() && !has_depths => Err(quantity.without_depths()),
+            _ => Ok(()),
+        }
+    }
+
     /// Returns the files to read.
     pub fn files(&self) -> Vec<PathBuf> {
         let recipe = self.recipe.as_ref().map(|recipe| recipe.file().to_owned());
@@ -159,7 +176,8 @@ impl Input {
         // What is said about parts counts for every domain; else only fitted meshes are cleaned.
         let spec = MeshSpec { cleaning: self.settings.cleaning(spec.cleaning), ..spec };
         let Settings { boundary_marks: marks, unit, paths, .. } = settings;
-        Ok(ToMesh { spec, paint, marks, unit, coordinates, paths, scale: self.scale })
+        let assumed = self.settings.domain.assumed().map_err(|fault| Failure::Usage(fault.to_string()))?;
+        Ok(ToMesh { spec, paint, marks, unit, coordinates, assumed, paths, scale: self.scale })
     }
 
     fn read_project(&self, path: &Path, terminal: &mut Terminal) -> Result<(Settings, PaintLayers), Failure> {

@@ -41,6 +41,7 @@ pub fn run(
     check_stdout(typed, &by_options.outputs)?;
     note_without_effect(typed, &input, &by_options.outputs, terminal);
     let files = all_files(typed, &input, by_options)?;
+    input.check_depth_for(files.iter().find_map(RequestedFiles::of_depth))?;
     let (finished, repaired) = build_for(&input, typed.repair_for.zip(Some("--repair-for")), terminal)?;
     let extract = finished.extract();
     let writes = files.iter().any(|files| !files.outputs.is_empty());
@@ -51,14 +52,12 @@ pub fn run(
     };
     let wants_details = typed.json || writes;
     let node_data = files.iter().any(RequestedFiles::wants_node_data);
-    let mut depths = files.iter().filter_map(RequestedFiles::depth);
-    let given_depths = depths.next().map(|depth| depth.at_nodes(&extract)).transpose()?;
-    let given_depths = given_depths.as_ref().map(|depth| &*depth.values);
-    let uses = DetailUses { json: typed.json, node_data, given_depths, least_depth: typed.least_depth };
+    let given_depth = files.iter().find_map(RequestedFiles::depth);
+    let uses = DetailUses { json: typed.json, node_data, given_depth, least_depth: typed.least_depth };
     let (details, mut summary) = terminal.while_working("measuring the mesh", || {
         let details =
             wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, coordinates, uses));
-        let details = details.transpose().map_err(|error| Failure::Work(error.to_string()))?;
+        let details = details.transpose()?;
         let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
         Ok::<_, Failure>((details, summary))
     })?;
@@ -103,7 +102,8 @@ fn all_files(
     let files: Vec<RequestedFiles> = divided.collect();
     let all: Vec<Output> = files.iter().flat_map(|files| files.outputs.clone()).collect();
     partition::check(typed, &all)?;
-    let inputs = input.files();
+    let inputs: Vec<_> =
+        input.files().into_iter().chain(files.iter().flat_map(RequestedFiles::read_files)).collect();
     let first_files = sequence::first_files(typed, files.clone())?;
     let mut outputs = first_files.iter().flat_map(|files| &files.outputs);
     outputs.try_for_each(|output| output.check_places(&inputs))?;
@@ -145,6 +145,7 @@ fn note_shortcomings(
 ) {
     note_capped(finished, terminal);
     note_filled(details, terminal);
+    details.into_iter().flat_map(|details| &details.quantity_notes).for_each(|note| terminal.note(note));
     note_courant(details, terminal);
     note_straits(finished, extract, details, terminal);
     note_far_from_surface(finished, extract, details, terminal);
@@ -318,8 +319,11 @@ fn report_violations(
 /// Names the options that change nothing.
 fn note_without_effect(typed: &MeshArguments, input: &Input, outputs: &[Output], terminal: &mut Terminal) {
     let mut notes = input.options_without_effect(&typed.input);
-    if !typed.quantity.is_empty() && !outputs.iter().any(Output::wants_node_data) {
+    if !typed.quantities.quantity.is_empty() && !outputs.iter().any(Output::wants_node_data) {
         notes.push("--quantity changes nothing: no file with data is written (-o).".into());
+    }
+    if !typed.quantities.quantity_grid.is_empty() && !outputs.iter().any(Output::wants_node_data) {
+        notes.push("--quantity-grid changes nothing: no file with data is written (-o).".into());
     }
     if typed.format.is_some() && !outputs.iter().any(Output::is_named) {
         notes.push("--format changes nothing: the endings of the files (-o) choose their formats.".into());

@@ -14,6 +14,7 @@ pub mod details;
 mod error_curve;
 pub mod exported_mesh;
 pub mod failure;
+mod grid_source;
 pub mod input;
 mod lengths;
 mod locate;

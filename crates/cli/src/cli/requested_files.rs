@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use super::args::MeshArguments;
 use super::build::FinishedMesh;
-use super::depths::LeastDepth;
 use super::details::MeshDetails;
 use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
@@ -17,8 +16,8 @@ use meshbrush_core::cells::{LARGEST_COSINE, LinkFigures};
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{
-    CellShape, DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, SURFACE, ThirdCoordinate,
-    UnknownCells, joined_cells, joined_links,
+    CellShape, Interruption, KeyFault, MeshData, Meter, NodeValues, ThirdCoordinate, UnknownCells,
+    joined_cells, joined_links,
 };
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::{Grouped, digits};
@@ -65,9 +64,11 @@ impl RequestedFiles {
     /// Fails with a sentence that names the option, the value and the rule.
     pub fn of_options(typed: &MeshArguments) -> Result<Self, Failure> {
         check_count("-o", "files", typed.output.len(), MOST_FILES)?;
-        check_count("--quantity", "quantities", typed.quantity.len(), MOST_QUANTITIES)?;
+        let further = &typed.quantities;
+        let count = further.quantity.len() + further.quantity_grid.len();
+        check_count("--quantity", "quantities", count, MOST_QUANTITIES)?;
         let look = RequestedLook::new(&typed.picture)?.in_space(RequestedSpace::new(&typed.space)?);
-        let quantities = typed_quantities(&typed.quantity)?;
+        let quantities = typed_quantities(further)?;
         let format = typed.format.as_deref();
         let output = |path: &PathBuf| Output::new(path, format, typed.binary);
         let outputs = typed.output.iter().map(output).collect::<Result<Vec<_>, _>>()?;
@@ -109,18 +110,10 @@ impl RequestedFiles {
         if look.is_in_space() && file.is_vector_picture() {
             return Err(KeyFault::value("view", format!("{NO_SVG_IN_SPACE}.")));
         }
-        check_count("The output", "quantities", saved.quantities.len(), MOST_QUANTITIES)
+        let count = saved.quantities.len() + saved.grids.len();
+        check_count("The output", "quantities", count, MOST_QUANTITIES)
             .map_err(|failure| KeyFault::value("quantities", failure.to_string()))?;
-        let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
-            let fault = match &error {
-                QuantityError::Name(_) => KeyFault::value("quantities", error.to_string()),
-                QuantityError::Formula(mistake) => {
-                    let text = &saved.quantities[index];
-                    KeyFault::mistake("quantities", text, text.len() - expression(text).len(), mistake)
-                }
-            };
-            fault.at(index)
-        })?;
+        let quantities = quantities_of(saved)?;
         let cells = saved.cells.as_deref().map(str::parse).transpose();
         let cells = cells.map_err(|error: UnknownCells| KeyFault::value("cells", error.to_string()))?;
         let cells = cells.unwrap_or_default();
@@ -151,10 +144,45 @@ impl RequestedFiles {
         self.quantities.iter().find(|quantity| quantity.is_depth())
     }
 
+    /// Returns the first quantity that uses the depth of layers, if one does.
+    pub fn of_depth(&self) -> Option<&NamedQuantity> {
+        self.quantities.iter().find(|quantity| quantity.uses_depth())
+    }
+
+    /// Returns the files that quantities read.
+    pub fn read_files(&self) -> impl Iterator<Item = PathBuf> {
+        self.quantities.iter().flat_map(NamedQuantity::files)
+    }
+
     /// Returns whether a file has values at the nodes.
     pub fn wants_node_data(&self) -> bool {
         self.outputs.iter().any(Output::wants_node_data)
     }
+}
+
+/// Returns the quantities of an output: those of formulas, and then those of grids.
+///
+/// # Errors
+/// Fails for the first value that cannot be used.
+pub fn quantities_of(saved: &SavedOutput) -> Result<Vec<NamedQuantity>, KeyFault> {
+    let mut quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
+        let fault = match &error {
+            QuantityError::Formula(mistake) => {
+                let text = &saved.quantities[index];
+                KeyFault::mistake("quantities", text, text.len() - expression(text).len(), mistake)
+            }
+            _ => KeyFault::value("quantities", error.to_string()),
+        };
+        fault.at(index)
+    })?;
+    for (index, grid) in saved.grids.iter().enumerate() {
+        let quantity = NamedQuantity::of_grid(grid, &quantities).map_err(|error| {
+            let key = if matches!(error, QuantityError::File(_)) { "file" } else { "name" };
+            KeyFault::value(key, error.to_string()).within(index).within("grids")
+        });
+        quantities.push(quantity?);
+    }
+    Ok(quantities)
 }
 
 /// Refuses keys that mean nothing for the format of an output.
@@ -164,6 +192,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         binary,
         cells: _,
         quantities,
+        grids,
         flat,
         size,
         edges,
@@ -186,9 +215,10 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         let sentence = "the files of this format have no height of a surface; leave it out.";
         return Err(KeyFault::key("flat", sentence));
     }
-    if !quantities.is_empty() && !output.wants_node_data() {
+    let of_nodes = [("quantities", !quantities.is_empty()), ("grids", !grids.is_empty())];
+    if let Some((key, _)) = of_nodes.iter().find(|(_, is_given)| *is_given && !output.wants_node_data()) {
         let sentence = "this format holds no values at the nodes; leave it out, or take another format.";
-        return Err(KeyFault::key("quantities", sentence));
+        return Err(KeyFault::key(*key, sentence));
     }
     let of_pictures = [
         ("size", size.is_some()),
@@ -239,12 +269,13 @@ pub fn write_files(
     let exported = ExportedMesh { finished, extract, details, provenance, coordinates, target_diameter };
     let placed = exported.in_coordinates()?;
     let placed = placed.as_ref().unwrap_or(extract);
+    let mut quantity_notes = details.quantity_notes.clone();
     for files in requested {
         let look = files.look_for(finished, extract)?;
         if files.outputs.iter().any(Output::is_picture) {
             look.missing_furniture().iter().for_each(|note| terminal.note(note));
         }
-        let quantities = files.values_at_nodes(&exported, Vec::new())?;
+        let quantities = files.values_at_nodes(&exported, Vec::new(), &mut quantity_notes)?;
         let data = MeshData {
             cells: files.cells,
             parts_for: files.parts_for,
@@ -263,9 +294,15 @@ pub fn write_files(
             }
         }
     }
-    let notes = requested.iter().filter_map(|files| files.closed_note(details));
-    notes.take(1).for_each(|note| terminal.note(&note));
+    quantity_notes.extend(requested.iter().find_map(|files| files.closed_note(details)));
+    tell_new(&quantity_notes, details.quantity_notes.len(), terminal);
     Ok(())
+}
+
+/// Tells notes after the first ones, which were told already, each once.
+fn tell_new(notes: &[String], told: usize, terminal: &mut Terminal) {
+    let new = (told..notes.len()).filter(|&number| !notes[..number].contains(&notes[number]));
+    new.for_each(|number| terminal.note(&notes[number]));
 }
 
 /// Returns a sentence about the cells of a file with quadrilaterals, and about the links between them.
@@ -326,7 +363,8 @@ impl RequestedFiles {
         Self::of_checked(saved, file)
     }
 
-    /// Writes files with `values` at the nodes beside what was requested, and returns their names.
+    /// Writes files with `values` at the nodes beside what was requested, and returns their names. What a
+    /// person should know about quantities is added to `notes`.
     ///
     /// # Errors
     /// Fails when a quantity is not finite somewhere, a file cannot be written, or the work was cancelled.
@@ -334,11 +372,12 @@ impl RequestedFiles {
         &self,
         exported: &ExportedMesh,
         values: Vec<NodeValues>,
+        notes: &mut Vec<String>,
         meter: &Meter,
     ) -> Result<Vec<PathBuf>, Failure> {
         let placed = exported.in_coordinates()?;
         let placed = placed.as_ref().unwrap_or(exported.extract);
-        let quantities = self.values_at_nodes(exported, values)?;
+        let quantities = self.values_at_nodes(exported, values, notes)?;
         let look = self.look_for(exported.finished, exported.extract)?;
         let data = exported.data(&quantities, self.is_flat);
         let write = |output: &Output| exported.write(output, placed, &data, &look, meter);
@@ -350,26 +389,12 @@ impl RequestedFiles {
     fn values_at_nodes(
         &self,
         exported: &ExportedMesh,
-        mut values: Vec<NodeValues>,
+        values: Vec<NodeValues>,
+        notes: &mut Vec<String>,
     ) -> Result<Vec<NodeValues>, Failure> {
-        if !self.wants_node_data() {
-            return Ok(Vec::new());
+        match self.wants_node_data() {
+            true => exported.values_at_nodes(&self.quantities, values, notes),
+            false => Ok(Vec::new()),
         }
-        for quantity in &self.quantities {
-            values.push(quantity.at_nodes(exported.extract)?);
-        }
-        let details = exported.details;
-        let given = values.iter_mut().find(|values| values.name == DEPTH);
-        if let (Some(given), Some(LeastDepth { depth, .. })) = (given, details.least_depth) {
-            LeastDepth::raise(depth, &mut given.values);
-        }
-        let depths = details.depths.as_ref().map(|depths| (DEPTH, depths.depths.clone()));
-        let heights = details.heights.as_ref().map(|heights| (SURFACE, heights.clone()));
-        for (name, of_layers) in depths.into_iter().chain(heights) {
-            if !values.iter().any(|values| values.name == name) {
-                values.push(NodeValues { name: name.into(), values: of_layers });
-            }
-        }
-        Ok(values)
     }
 }

@@ -77,12 +77,8 @@ impl SequenceStart<'_> {
         for number in 1..=count {
             if number > 1 {
                 current = current.refined().ok_or_else(|| too_fine(count, number))?;
-                let given = files.iter().find_map(RequestedFiles::depth);
-                let given = given.map(|depth| depth.at_nodes(&current)).transpose()?;
-                let uses = DetailUses { given_depths: given.as_ref().map(|of| &*of.values), ..uses };
                 // The line about a least depth is there already.
-                let made = MeshDetails::with_provenance(finished, &current, origin.clone(), uses);
-                details = made.map_err(|error| Failure::Work(error.to_string()))?;
+                details = MeshDetails::with_provenance(finished, &current, origin.clone(), uses)?;
                 details.target_factor = 0.5_f64.powi(number as i32 - 1);
             }
             let line = format!("{number} of {count}; each has the nodes of the one before");

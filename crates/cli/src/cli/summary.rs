@@ -4,10 +4,9 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::depths::{HeightTimeStep, LeastDepth, TimeStepSummary};
+use super::depths::{CourantSummary, DepthSummary, HeightTimeStep, LeastDepth, TimeStepSummary};
 use super::details::{
-    CourantSummary, DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
-    SurfaceSummary,
+    LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary, SurfaceSummary,
 };
 use super::partition::PartitionSummary;
 use super::quality::QualitySummary;

@@ -13,7 +13,7 @@ use crate::raster::{PixelRect, Raster};
 /// value at the node itself is closer to the surface.
 const PIXELS_TO_AVERAGE: f64 = 4.0;
 /// Farthest that a node without a value may be from a pixel with one, in pixels.
-const FARTHEST_PIXEL: u32 = 64;
+pub(super) const FARTHEST_PIXEL: u32 = 64;
 /// Nodes or triangles that a thread takes at a time.
 const GRAIN: usize = 256;
 
@@ -169,7 +169,7 @@ impl DepthSurface<'_> {
 }
 
 /// Returns the places of the nodes, in world units.
-fn places(mesh: MeshView) -> Vec<DVec2> {
+pub(super) fn places(mesh: MeshView) -> Vec<DVec2> {
     mesh.nodes().par_iter().map(|&node| mesh.lattice().world_from_lattice(node)).collect()
 }
 

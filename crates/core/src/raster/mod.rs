@@ -17,7 +17,7 @@ use glam::DVec2;
 use crate::geometry::Rect;
 
 pub use nearest::NearestPixel;
-pub use projected::{ProjectedRasterError, projected_raster};
+pub use projected::{ProjectedRasterError, Resampling, projected_raster, resampled_raster};
 pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};

@@ -42,6 +42,16 @@ const SAMPLES: u32 = 33;
 /// Least width of a pixel that counts, as a share of its height: pixels at a pole have no width.
 const NARROWEST: f64 = 0.25;
 
+/// What a projected pixel gets from the pixels of its source.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resampling {
+    /// The value at its centre, linear between the centres of the source's pixels.
+    #[default]
+    Linear,
+    /// The value of the source's pixel around its centre: between two classes there is no third one.
+    Nearest,
+}
+
 /// Returns a raster in the plane of a projection, where it covers a part of `area`. Its pixels are squares as
 /// small as the smallest of the source there, on the Earth; each has the value at its centre, linear between
 /// the centres of the source's pixels. It has no value where the pixel of the source around its centre has
@@ -54,9 +64,23 @@ pub fn projected_raster(
     reprojection: &Reprojection,
     area: Rect,
 ) -> Result<Raster, ProjectedRasterError> {
+    resampled_raster(source, reprojection, area, Resampling::Linear)
+}
+
+/// Returns a raster in the plane of a projection as [`projected_raster`] does, with pixels that get their
+/// values in a given way.
+///
+/// # Errors
+/// Fails as [`projected_raster`] does.
+pub fn resampled_raster(
+    source: &Raster,
+    reprojection: &Reprojection,
+    area: Rect,
+    resampling: Resampling,
+) -> Result<Raster, ProjectedRasterError> {
     let is_geographic = reprojection.from.are_degrees();
     let bounds = if is_geographic { eastward(source.bounds()) } else { source.bounds() };
-    let source = Source { raster: source, bounds, is_geographic, reprojection };
+    let source = Source { raster: source, bounds, is_geographic, reprojection, resampling };
     let (bounds, side) = source.place(area).ok_or(ProjectedRasterError::Apart(source.raster.bounds()))?;
     let size = (bounds.size() / side).ceil().max(DVec2::ONE).to_array().map(|count| count as u64);
     if size.iter().any(|&count| count > u64::from(LONGEST_SIDE)) || size[0] * size[1] > MOST_PIXELS {
@@ -91,6 +115,7 @@ struct Source<'a> {
     /// Whether these are longitudes and latitudes.
     is_geographic: bool,
     reprojection: &'a Reprojection,
+    resampling: Resampling,
 }
 
 /// Returns a rectangle of longitudes and latitudes whose western side is below 180°: rasters from 0° to 360°
@@ -146,16 +171,23 @@ impl Source<'_> {
         if is_close { between } else { Positions::Exact(self) }
     }
 
-    /// Returns the value at a place in pixels, linear between the centres of pixels that have a value.
+    /// Returns the value at a place in pixels, by the pixels around it that have one.
     fn value(&self, at: DVec2) -> f32 {
         let value = match self.is_round() {
             true => {
                 let columns = i64::from(self.raster.size()[0]);
-                linear(at, |x, y| self.raster.known(x.rem_euclid(columns), y))
+                self.value_of(at, |x, y| self.raster.known(x.rem_euclid(columns), y))
             }
-            false => linear(self.within_a_pixel(at), |x, y| self.raster.known(x, y)),
+            false => self.value_of(self.within_a_pixel(at), |x, y| self.raster.known(x, y)),
         };
-        value.map_or(f32::NAN, |value| value as f32)
+        value.unwrap_or(f32::NAN)
+    }
+
+    fn value_of(&self, at: DVec2, pixel: impl Fn(i64, i64) -> Option<f32>) -> Option<f32> {
+        match self.resampling {
+            Resampling::Linear => linear(at, pixel).map(|value| value as f32),
+            Resampling::Nearest => pixel(at.x.floor() as i64, at.y.floor() as i64),
+        }
     }
 
     /// Returns a place, moved into the source if it is at most a pixel away: pixels of the plane can cover a

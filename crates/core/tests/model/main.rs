@@ -23,6 +23,7 @@ mod guards;
 mod layers;
 mod many_directions;
 mod mirrored;
+mod node_means;
 mod open_boundary;
 mod operations;
 mod outline;

@@ -25,6 +25,7 @@ mod blocks;
 mod boundary_strings;
 pub mod certificate;
 mod claim;
+pub mod class_table;
 mod coordinate_system;
 mod coordinates;
 pub mod csv;
@@ -108,6 +109,7 @@ pub mod ww3;
 
 pub use atomic::{exists, is_read_only, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;
+pub use class_table::ClassTable;
 pub use coordinate_system::{CoordinateKind, CoordinateSystem};
 pub use coordinates::{DocumentPlane, FileCoordinates};
 pub use error::{Flaw, PlaceInFile, ReadError};

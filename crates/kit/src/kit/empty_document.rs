@@ -9,6 +9,7 @@ use crate::kit::session::Session;
 use meshbrush_core::document::{Document, Settings, extent};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind};
+use meshbrush_core::raster::Resampling;
 use meshbrush_io::io::layers::RasterFrame;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -61,6 +62,7 @@ pub fn raster_frame(session: &Session) -> RasterFrame {
         wanted,
         plane: domain.projection.map(Into::into),
         transfer: *transfer,
+        resampling: Resampling::Linear,
     }
 }
 

@@ -55,8 +55,12 @@ impl ExportSet {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let beside = |file: &ExportedFile| {
             let mut output = file.output.clone();
-            if let Ok(name) = output.file.strip_prefix(&folder) {
-                output.file = name.to_owned();
+            let of_grids =
+                output.grids.iter_mut().flat_map(|grid| [Some(&mut grid.file), grid.table.as_mut()]);
+            for file in std::iter::once(&mut output.file).chain(of_grids.flatten()) {
+                if let Ok(name) = file.strip_prefix(&folder) {
+                    *file = name.to_owned();
+                }
             }
             output
         };

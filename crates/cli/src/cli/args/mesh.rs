@@ -8,6 +8,7 @@ use super::error_curve::ErrorCurveArguments;
 use super::help::{format_help, format_long_help, output_help, output_long_help};
 use super::input::InputArguments;
 use super::picture::PictureArguments;
+use super::quantities::QuantityArguments;
 use super::space::SpaceArguments;
 use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_io::io::CellShape;
@@ -52,14 +53,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
     pub out_crs: Option<OutputCoordinates>,
 
-    /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
-    /// repeated
-    ///
-    /// As in `depth=20 - x`; without a name it is `quantity`. In .node the values are attributes in this
-    /// order, and the first is z in .2dm. The formats of coastal solvers take the quantity `depth` as the
-    /// depth, positive downwards.
-    #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
-    pub quantity: Vec<String>,
+    #[command(flatten, next_help_heading = "Output")]
+    pub quantities: QuantityArguments,
 
     /// Multiply all sizes by this number: target diameters with their limits and gradation, and the largest
     /// diameter at the outline

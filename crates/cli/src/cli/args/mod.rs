@@ -11,6 +11,7 @@ mod mesh;
 mod other;
 mod path;
 mod picture;
+mod quantities;
 mod query;
 mod space;
 mod surface;
@@ -32,6 +33,7 @@ use other::{CompletionsArguments, ScreenshotsArguments};
 pub use other::{RecipeArguments, ReplayArguments, ReportArguments, ThumbnailArguments};
 pub use path::PathArguments;
 pub use picture::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
+pub use quantities::QuantityArguments;
 pub use query::{CheckArguments, LocateArguments, WhyArguments};
 pub use space::{PictureView, SpaceArguments};
 

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::input::InputArguments;
 use super::mesh::{finite, positive};
+use super::quantities::QuantityArguments;
 use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_io::io::CellShape;
 use meshbrush_io::io::solver_rules::Solver;
@@ -29,9 +30,8 @@ pub struct CheckArguments {
     #[arg(long, value_name = "triangles|squares", help_heading = "Rules")]
     pub cells: Option<CellShape>,
 
-    /// A value at the nodes, as for `meshbrush mesh`: `depth=EXPR` is the depth, in place of that of layers
-    #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Rules")]
-    pub quantity: Vec<String>,
+    #[command(flatten, next_help_heading = "Rules")]
+    pub quantities: QuantityArguments,
 
     /// Multiply all sizes by this number, as for `meshbrush mesh`
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Rules")]

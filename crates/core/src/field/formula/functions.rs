@@ -216,7 +216,7 @@ pub(super) enum Third {
     Nothing,
     /// `risk`, in costs.
     Risk,
-    /// `depth`, in target diameters.
+    /// `depth`, in target diameters and in values at the nodes.
     Depth,
 }
 
@@ -280,7 +280,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("false", "`0`"),
     ("xor", "`(a != 0) != (b != 0)`"),
     ("z", "the formula in `x` and `y`"),
-    ("depth", "`x` and `y`: only target diameters have depths"),
+    ("depth", "`x` and `y`: only target diameters have depths, and values at the nodes of files"),
 ];
 
 /// Returns every function as (call, meaning), for a help page or a completion list.
@@ -311,7 +311,7 @@ pub(super) fn coordinates(third: Third) -> &'static str {
     match third {
         Third::Nothing => "the coordinates are `x`, `y`, `r` and `theta`",
         Third::Risk => "a cost is a formula of `x`, `y` and `risk`",
-        Third::Depth => "a target diameter is a formula of `x`, `y`, `r`, `theta` and `depth`",
+        Third::Depth => "this is a formula of `x`, `y`, `r`, `theta` and `depth`",
     }
 }
 

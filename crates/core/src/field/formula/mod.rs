@@ -102,8 +102,8 @@ impl Formula {
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
-    /// Reads and compiles a formula for a target diameter, which may also use `depth`: the depth of the water
-    /// in metres, positive downwards.
+    /// Reads and compiles a formula for a target diameter or a value at the nodes, which may also use
+    /// `depth`: the depth of the water in metres, positive downwards.
     ///
     /// # Errors
     /// Fails as [`Self::parse`] does.

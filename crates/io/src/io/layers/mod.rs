@@ -9,6 +9,7 @@ mod data;
 mod direction;
 mod key_group;
 mod kinds;
+mod quantity_grid;
 mod rasters;
 mod saved;
 mod shapes;
@@ -30,6 +31,7 @@ pub use kinds::{
     PaintKeys, RasterKeys, ReadingKeys, SavedKind, SavedKnot, ShapeKeys, SlopeKeys, StepKeys, StraitKeys,
     StripKeys, SurfaceKeys, TargetKeys, ThreatKeys, WavelengthKeys, WidthKeys,
 };
+pub use quantity_grid::QuantityGrid;
 pub use rasters::{LoadedRaster, OwnPlace, RasterError, RasterFile, RasterFrame, RasterLoader};
 pub use saved::{ListsInPlace, SavedLayer, SharedKeys};
 use shapes::checked_shapes;

@@ -6,12 +6,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::png::Behind;
+use super::super::raster_file::file_and_part;
 use super::super::{
     DocumentPlane, FileCoordinates, FileGrid, Given, GivenGrid, GridPlace, GridWindow, Meter, RasterFormat,
     ReadError, ReadRaster, ValueFacts,
 };
 use meshbrush_core::field::{Transfer, f32_not_below};
-use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues, check_values, projected_raster};
+use meshbrush_core::raster::{
+    Raster, RasterPyramid, RasterValues, Resampling, check_values, resampled_raster,
+};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -45,6 +48,11 @@ impl RasterFile {
     /// Fails with a sentence when the ending of the name is that of no raster.
     pub fn named(path: &Path) -> Result<Self, String> {
         Ok(Self { path: path.to_owned(), format: RasterFormat::from_path(path)?, bounds: None })
+    }
+
+    /// Returns the file in the folder, without the variable or band that its name may end with.
+    pub fn on_disk(&self) -> PathBuf {
+        file_and_part(&self.path).0
     }
 }
 
@@ -89,6 +97,8 @@ pub struct RasterFrame {
     pub plane: Option<DocumentPlane>,
     /// The scale of images of diameters.
     pub transfer: Transfer,
+    /// What pixels get from those of a file in other coordinates.
+    pub resampling: Resampling,
 }
 
 impl RasterFrame {
@@ -287,7 +297,8 @@ fn in_plane(
         if reprojection.is_identity() {
             return Ok(None);
         }
-        return projected_raster(grid, &reprojection, area).map(Some).map_err(|error| named(&error));
+        let projected = resampled_raster(grid, &reprojection, area, frame.resampling);
+        return projected.map(Some).map_err(|error| named(&error));
     }
     let system =
         system.map_or("no coordinate system that is known here".to_owned(), |name| format!("“{name}”"));

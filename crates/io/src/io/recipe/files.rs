@@ -28,7 +28,7 @@ use meshbrush_core::domain::{BoundaryMarks, Domain, OutlineOnEarth, Polygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, Shapes, Threats};
-use meshbrush_core::raster::RasterValues;
+use meshbrush_core::raster::{RasterValues, Resampling};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
 use meshbrush_mesh::text::{LengthUnit, abridged};
@@ -198,7 +198,13 @@ impl<'a> Files<'a> {
             loading,
             rasters: RasterLoader::with_given(loading.given.clone(), loading.meter),
             projects: BTreeMap::new(),
-            frame: RasterFrame { domain: Rect::UNIT, wanted: None, plane: None, transfer },
+            frame: RasterFrame {
+                domain: Rect::UNIT,
+                wanted: None,
+                plane: None,
+                transfer,
+                resampling: Resampling::Linear,
+            },
             paint: PaintLayers::default(),
             plane: None,
             coordinates: None,
@@ -217,8 +223,9 @@ impl<'a> Files<'a> {
     ) -> Self {
         let Domain { bounds, projection, .. } = settings.domain;
         let plane = projection.map(|projection| DocumentPlane { projection, assumed });
-        let frame = RasterFrame { domain: bounds, wanted: Some(bounds), plane, transfer: settings.transfer };
-        Self { plane, frame, ..Self::new(loading) }
+        let new = Self::new(loading);
+        let (wanted, transfer) = (Some(bounds), settings.transfer);
+        Self { plane, frame: RasterFrame { domain: bounds, wanted, plane, transfer, ..new.frame }, ..new }
     }
 
     /// Returns one layer with its data.
@@ -354,7 +361,8 @@ impl Storage for Files<'_> {
         if !(layer.shared.visible || self.loading.with_hidden) {
             return Ok(None);
         }
-        self.frame = RasterFrame { domain, wanted: Some(domain), plane: self.plane, transfer: *transfer };
+        let (wanted, plane) = (Some(domain), self.plane);
+        self.frame = RasterFrame { domain, wanted, plane, transfer: *transfer, ..self.frame };
         let loaded = layer.load(number, self)?;
         self.add_paint(layer, number)?;
         Ok(Some(loaded))

@@ -129,12 +129,31 @@ impl SavedSettings {
             region.name.get_or_insert_with(|| region_name(region.file.as_deref()));
             place("file", &mut region.file).map_err(|fault| fault.within(index).within("keep_out"))?;
         }
+        for (index, output) in self.output.iter_mut().enumerate() {
+            output.place_grids(find).map_err(|fault| fault.within(index).within("output"))?;
+        }
         Ok(())
     }
 
     /// Puts output files into a folder.
     pub(in crate::io) fn place_outputs(&mut self, folder: &Path) {
         self.output.iter_mut().for_each(|SavedOutput { file, .. }| *file = folder.join(&file));
+    }
+}
+
+impl SavedOutput {
+    /// Puts the path of each grid and table in place of its name.
+    fn place_grids(&mut self, find: &FindFile) -> Result<(), KeyFault> {
+        for (index, grid) in self.grids.iter_mut().enumerate() {
+            let files = [("file", Some(&mut grid.file)), ("table", grid.table.as_mut())];
+            for (key, file) in files {
+                let Some(file) = file else { continue };
+                let found = find(&file.to_string_lossy());
+                *file =
+                    found.map_err(|sentence| KeyFault::entry(key, sentence).within(index).within("grids"))?;
+            }
+        }
+        Ok(())
     }
 }
 

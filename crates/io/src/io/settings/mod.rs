@@ -18,7 +18,7 @@ pub use load::{LoadingDefaults, ReadRegion, RegionCoordinates, Storage};
 pub use opening::{SavedOpen, SavedOpenings};
 pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
-    SavedSettings, SavedTreatment,
+    SavedQuantityGrid, SavedSettings, SavedTreatment,
 };
 pub use words::{
     SavedBoundaryType, SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks, word_of,

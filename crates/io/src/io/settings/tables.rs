@@ -258,6 +258,9 @@ pub struct SavedOutput {
     /// Further values at the nodes, as in `"depth = 20 - x"`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quantities: Vec<String>,
+    /// Further values at the nodes, from grids.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grids: Vec<SavedQuantityGrid>,
     /// Whether the third coordinate is 0, and not the height of a surface.
     #[serde(default, skip_serializing_if = "is_no")]
     pub flat: bool,
@@ -297,6 +300,19 @@ pub struct SavedOutput {
     /// The factor by which heights are exaggerated in space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exaggeration: Option<f64>,
+}
+
+/// A value at the nodes that a grid gives: the mean over the cell of each node.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct SavedQuantityGrid {
+    /// Its name in files.
+    pub name: String,
+    /// The grid.
+    pub file: PathBuf,
+    /// A table with the values of classes, where the grid has classes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<PathBuf>,
 }
 
 /// The boundary treatments.
