@@ -77,6 +77,22 @@ impl SizeField {
         self.decision(&mut squares.known, paint, point, Accuracy::Quick)
     }
 
+    /// Returns h̄ at a point in world units as a triangle of the mesh is compared with it: times
+    /// [`Self::scale`], and no larger than the largest triangle, which no mesh exceeds. So a document without
+    /// a largest diameter has the same number as one with a diameter that no triangle reaches. With
+    /// gradation it may be too large as that of [`Self::quick_decision_at`], and `squares` are as there.
+    pub fn compared_target_at(&self, squares: &mut LevelCache, paint: &PaintLayers, point: DVec2) -> f64 {
+        squares.make_room();
+        let (asked, most) = (self.stack.ungraded_at(paint, point).target, self.edge_lengths().longest());
+        let before = if asked > most { most } else { asked };
+        let how = |slope| (slope, Accuracy::Quick);
+        let graded = self
+            .stack
+            .slope()
+            .map(|slope| self.stack.graded(&mut squares.known, paint, point, how(slope), before).0);
+        self.scale() * graded.unwrap_or(before)
+    }
+
     fn decision(
         &self,
         known: &mut KnownParts,

@@ -17,8 +17,8 @@ pub enum QualityMeasure {
     LargestAngle,
     /// The ratio of the longest to the shortest edge of a triangle: at least 1.
     EdgeRatio,
-    /// The ratio of the longest edge of a triangle to h̄ at its middle, which is found as for a pointer: with
-    /// gradation it can be too large by 10⁻³ of it.
+    /// The ratio of the longest edge of a triangle to h̄ at its middle, or to the diameter of the largest
+    /// triangle where h̄ is larger. h̄ is found as for a pointer: with gradation it can be too large by 10⁻³.
     TargetRatio,
     /// The shortest time that a wave of 1 m takes along an edge of a triangle, in seconds: the largest time
     /// step with the Courant number 1.
@@ -164,7 +164,7 @@ impl<'a> TriangleMeasures<'a> {
         let mut corners = self.corners(triangle);
         corners.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let middle = corners.iter().sum::<DVec2>() / 3.0;
-        let target = field.scale() * field.quick_decision_at(squares, paint, middle).target;
+        let target = field.compared_target_at(squares, paint, middle);
         (target > 0.0).then(|| range(edges)[1] / target)
     }
 

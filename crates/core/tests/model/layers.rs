@@ -338,6 +338,12 @@ fn h_at_a_point_is_that_of_the_definition() {
             // What was asked before changes nothing, not even the last bit.
             let alone = field.quick_decision_at(&mut LevelCache::default(), &case.paint, point).target;
             assert_eq!(quick.to_bits(), alone.to_bits(), "seed {seed}: {quick} and {alone} at {point}");
+            let compared = field.compared_target_at(&mut squares, &case.paint, point);
+            let most = 2.0_f64.sqrt() * case.lattice.spacing();
+            assert!(
+                (compared - found.min(most)).abs() < 2e-3 * most.min(found),
+                "seed {seed}: {compared} for {found}, at most {most}"
+            );
             assert!((0.0..=1e-3 * found).contains(&(quick - found)), "seed {seed}: {quick} for {found}");
             assert_eq!(decision.asked.len(), case.visible.len());
             for ((id, asked), layer) in decision.asked.iter().zip(&case.visible) {
