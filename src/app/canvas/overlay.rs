@@ -59,7 +59,9 @@ impl OverlaySource {
             | FieldOverlay::EdgeRatio
             | FieldOverlay::TargetRatio
             | FieldOverlay::TimeStep
-            | FieldOverlay::Valence => Self::Comparison,
+            | FieldOverlay::Valence
+            | FieldOverlay::LinkLength
+            | FieldOverlay::Orthogonality => Self::Comparison,
         }
     }
 }

@@ -68,7 +68,9 @@ pub(super) fn legend_of(
         | FieldOverlay::EdgeRatio
         | FieldOverlay::TargetRatio
         | FieldOverlay::TimeStep
-        | FieldOverlay::Valence => measure(measure_of(kind)?, session, palette, smallest),
+        | FieldOverlay::Valence
+        | FieldOverlay::LinkLength
+        | FieldOverlay::Orthogonality => measure(measure_of(kind)?, session, palette, smallest),
     })
 }
 

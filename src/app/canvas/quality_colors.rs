@@ -82,6 +82,9 @@ impl QualityData {
         if let Some(NodeDepths { depths, .. }) = &depths {
             measures = measures.with_depths(depths, self.unit);
         }
+        if measure.is_of_links() {
+            measures = measures.with_links(self.unit);
+        }
         use_measures(&measures)
     }
 }
@@ -101,9 +104,9 @@ fn numbers(
         return Some(neutral(*size, palette));
     };
     let mut squares = LevelCache::default();
-    let at_corners = (measure == QualityMeasure::Valence).then(|| measures.most_at_corners());
-    let number = |triangle: usize| match &at_corners {
-        Some(counts) => Some(f64::from(counts[triangle])),
+    let of_all = measures.of_all(measure);
+    let number = |triangle: usize| match &of_all {
+        Some(numbers) => Some(numbers[triangle]).filter(|number| !number.is_nan()),
         None => measures.of(measure, triangle, &mut squares),
     };
     let numbers = numbers_by_pixel(mesh.view(), (*bounds, *size), goes_on, number)?;

@@ -26,7 +26,7 @@ pub static PLACES: &[DockPlace] = &[
     DockPlace::new("statistics", "Statistics", "Gradation").words("quality growth size change neighbours"),
     DockPlace::new("quality", "Quality", "").words(
         "figures angles bad elements histogram worst check skewness aspect ratio slivers narrowest strait widest \
-         cfl courant number time step stability solver valence degree triangles at a node connectivity",
+         cfl courant number time step stability solver valence degree triangles at a node connectivity orthogonality flow links circumcentre",
     ),
     DockPlace::new("quality", "Quality", "Smallest angle")
         .words("quality bad elements skewness sliver slivers thin minimum narrowest"),

@@ -114,6 +114,9 @@ fn by_measure(
     if let Some(NodeDepths { depths, .. }) = &depths {
         measures = measures.with_depths(depths, finished.unit());
     }
+    if measure.is_of_links() {
+        measures = measures.with_links(finished.unit());
+    }
     let time = |seconds: f64| format!("{} s", digits(seconds, 3));
     let overlay = measure_overlay(&measures, measure, palette, time);
     overlay.ok_or_else(|| {

@@ -126,6 +126,13 @@ impl MeshCells {
         links::links_of(mesh, &self.cells, &links::edges_of(&self.cells))
     }
 
+    /// Returns the links of [`Self::links`], and the numbers of the two cells of each.
+    pub fn links_with_cells(&self, mesh: CellNodes<'_>) -> (Vec<CellLink>, Vec<[usize; 2]>) {
+        let edges = links::edges_of(&self.cells);
+        let sides = edges.iter().map(|edge| edge.cells).collect();
+        (links::links_of(mesh, &self.cells, &edges), sides)
+    }
+
     /// Measures the links between the cells.
     pub fn link_figures(&self, mesh: CellNodes<'_>) -> LinkFigures {
         links::figures(mesh, &self.cells)

@@ -54,6 +54,8 @@ impl Classes {
             }
             QualityMeasure::TimeStep => Self::Octaves(least),
             QualityMeasure::Valence => even(1.0, 1.0, 12, true),
+            QualityMeasure::LinkLength => even(0.0, 0.09, 20, true),
+            QualityMeasure::LinkCosine => even(0.0, 0.05, 20, false),
         }
     }
 

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::links::MeasuredLinks;
 use crate::earth::Ground;
 use crate::layers::{EdgeTimes, LevelCache, PaintLayers, SizeField};
 use crate::mesh::{MeshView, NodeId, TriangleId};
@@ -25,17 +26,24 @@ pub enum QualityMeasure {
     TimeStep,
     /// The triangles at a node.
     Valence,
+    /// The length of a link between the centres of two cells, as Delft3D-FM has them, by the size of the
+    /// cells. It removes those below 0.09.
+    LinkLength,
+    /// The cosine of the angle between a link and the edge that it crosses: 0 where they are orthogonal.
+    LinkCosine,
 }
 
 impl QualityMeasure {
     /// All of them, in the order of lists.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::SmallestAngle,
         Self::LargestAngle,
         Self::EdgeRatio,
         Self::TargetRatio,
         Self::TimeStep,
         Self::Valence,
+        Self::LinkLength,
+        Self::LinkCosine,
     ];
 
     /// Those of triangles, as [`TriangleMeasures::of_triangle`] returns them.
@@ -51,12 +59,19 @@ impl QualityMeasure {
             Self::TargetRatio => "target_ratio",
             Self::TimeStep => "time_step",
             Self::Valence => "triangles_at_node",
+            Self::LinkLength => "link_length",
+            Self::LinkCosine => "link_cosine",
         }
+    }
+
+    /// Returns whether it is of the links between cells.
+    pub fn is_of_links(self) -> bool {
+        matches!(self, Self::LinkLength | Self::LinkCosine)
     }
 
     /// Returns whether a smaller number is the worse one.
     pub fn is_worse_when_smaller(self) -> bool {
-        matches!(self, Self::SmallestAngle | Self::TimeStep)
+        matches!(self, Self::SmallestAngle | Self::TimeStep | Self::LinkLength)
     }
 }
 
@@ -67,12 +82,14 @@ pub struct TriangleMeasures<'a> {
     ground: &'a Ground,
     target: Option<(&'a SizeField, &'a PaintLayers)>,
     times: Option<EdgeTimes<'a>>,
+    /// The unit of coordinates, where links between cells are measured.
+    links: Option<LengthUnit>,
 }
 
 impl<'a> TriangleMeasures<'a> {
     /// Measures angles and edge ratios.
     pub fn new(mesh: MeshView<'a>, ground: &'a Ground) -> Self {
-        Self { mesh, ground, target: None, times: None }
+        Self { mesh, ground, target: None, times: None, links: None }
     }
 
     /// Compares edges with the targets of a field as well.
@@ -83,6 +100,12 @@ impl<'a> TriangleMeasures<'a> {
     /// Finds time steps as well, from the depths at the nodes in metres. In degrees there are none.
     pub fn with_depths(self, depths: &'a [f64], unit: LengthUnit) -> Self {
         Self { times: EdgeTimes::new(depths, unit), ..self }
+    }
+
+    /// Measures the links between cells as well: squares, and the triangles that are left
+    /// ([`MeshCells::joined`](crate::cells::MeshCells::joined)). With degrees lengths are those on the Earth.
+    pub fn with_links(self, unit: LengthUnit) -> Self {
+        Self { links: Some(unit), ..self }
     }
 
     /// Returns the mesh.
@@ -102,7 +125,7 @@ impl<'a> TriangleMeasures<'a> {
             QualityMeasure::EdgeRatio => Some(ratio(self.edges(triangle))),
             QualityMeasure::TargetRatio => self.target_ratio(triangle, self.edges(triangle), squares),
             QualityMeasure::TimeStep => self.time_step(triangle, self.edges(triangle)),
-            QualityMeasure::Valence => None,
+            QualityMeasure::Valence | QualityMeasure::LinkLength | QualityMeasure::LinkCosine => None,
         }
     }
 
@@ -114,6 +137,22 @@ impl<'a> TriangleMeasures<'a> {
         });
         let most = |corners: [NodeId; 3]| corners.map(|node| at_node[node.index()]).into_iter().max();
         self.mesh.triangles().iter().map(|triangle| most(triangle.vertices).unwrap_or(0)).collect()
+    }
+
+    /// Returns a number of each triangle that is not found by looking at it alone: the greatest number of
+    /// triangles at its corners, or the worst link of its cell; NaN without a link. `None` for other measures.
+    pub fn of_all(&self, measure: QualityMeasure) -> Option<Vec<f64>> {
+        match measure {
+            QualityMeasure::Valence => Some(self.most_at_corners().into_iter().map(f64::from).collect()),
+            QualityMeasure::LinkLength => Some(self.links()?.worst(self.mesh.triangles().len(), true)),
+            QualityMeasure::LinkCosine => Some(self.links()?.worst(self.mesh.triangles().len(), false)),
+            _ => None,
+        }
+    }
+
+    /// Returns the links between cells, if they are measured.
+    pub(super) fn links(&self) -> Option<MeasuredLinks> {
+        Some(MeasuredLinks::of(self.mesh, self.links?))
     }
 
     /// Returns the least time step of all triangles, in seconds; `None` where none has one.

@@ -4,6 +4,7 @@
 //! What is measured is an extract: the mesh that files get, with its nodes on the outline where there is one.
 
 mod bins;
+mod links;
 mod measures;
 mod tally;
 #[cfg(test)]

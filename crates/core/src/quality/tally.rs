@@ -4,6 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::bins::Classes;
+use super::links::{MeasuredLinks, number_of};
 use super::{QualityBin, QualityMeasure, TriangleMeasures};
 use crate::layers::LevelCache;
 use crate::mesh::NodeId;
@@ -174,6 +175,7 @@ impl QualityCount {
             summaries.extend(tally.summary(of_triangle));
         }
         summaries.extend(valences(measures));
+        summaries.extend(links(measures));
         MeshQuality(summaries)
     }
 }
@@ -200,6 +202,23 @@ fn valences(measures: &TriangleMeasures<'_>) -> Option<MeasureSummary> {
         let (inside, size) = middle_and_size(measures, nodes[node].1);
         MeasuredPlace { value, at: mesh.world(NodeId::from_index(node)), inside, size }
     })
+}
+
+/// Counts the links between cells by their lengths, and those that solvers keep by their cosines.
+fn links(measures: &TriangleMeasures<'_>) -> Vec<MeasureSummary> {
+    let Some(MeasuredLinks { links, triangles }) = measures.links() else { return Vec::new() };
+    let place = |value: f64, link: usize| {
+        let [a, b] = links[link].ends.map(|node| measures.mesh().world(NodeId::from_index(node)));
+        let (inside, size) = middle_and_size(measures, triangles[link][0]);
+        MeasuredPlace { value, at: a.midpoint(b), inside, size }
+    };
+    let summary = |(measure, by_length): (QualityMeasure, bool)| {
+        let mut tally = Tally::new(measure, f64::NAN);
+        links.iter().enumerate().for_each(|(number, link)| tally.note(number_of(link, by_length), number));
+        tally.summary(place)
+    };
+    let both = [(QualityMeasure::LinkLength, true), (QualityMeasure::LinkCosine, false)];
+    both.into_iter().filter_map(summary).collect()
 }
 
 /// Returns the middle of a triangle and its diameter in the plane.

@@ -230,3 +230,38 @@ fn a_mesh_of_many_steps_is_measured_as_a_whole() {
     let node = extract.world_nodes().nth(last).unwrap();
     assert!(step.least.at.distance(node) < 0.01, "{:?}", step.least);
 }
+
+#[test]
+fn links_between_squares_are_as_long_as_the_squares_and_orthogonal() {
+    let domain = Domain::rectangle(Rect::UNIT);
+    let built = formula_mesh(&domain, 0.25, BoundaryTreatment::Report, "1");
+    let extract = built.mesh.extract();
+    let ground = Ground::default();
+    let measures = TriangleMeasures::new(extract.view(), &ground).with_links(LengthUnit::None);
+    let quality = MeshQuality::of(&measures);
+    let [length, cosine] =
+        [QualityMeasure::LinkLength, QualityMeasure::LinkCosine].map(|measure| quality.get(measure).unwrap());
+    // 4 by 4 squares have 12 links along each axis.
+    let count = |summary: &MeasureSummary| summary.bins.iter().map(|bin| bin.count).sum::<usize>();
+    assert_eq!((extract.triangles().len(), count(length), count(cosine)), (32, 24, 24));
+    assert!((length.least.value - 1.0).abs() < 1e-12 && (length.greatest.value - 1.0).abs() < 1e-12);
+    assert!(cosine.greatest.value < 1e-12);
+    let of_all = measures.of_all(QualityMeasure::LinkLength).unwrap();
+    assert!(of_all.len() == 32 && of_all.iter().all(|share| (share - 1.0).abs() < 1e-12));
+    // The place of a link is the middle of the edge that it crosses: on a line between squares.
+    let on_line = |x: f64| (4.0 * x).fract() == 0.0;
+    assert!(on_line(length.least.at.x) != on_line(length.least.at.y), "{}", length.least.at);
+    assert!(MeshQuality::of(&TriangleMeasures::new(extract.view(), &ground)).get(length.measure).is_none());
+    // On a graded mesh the cells are measured as the links of their cells are.
+    let graded = formula_mesh(&domain, 0.25, BoundaryTreatment::Report, "0.03 + 0.2*hypot(x, y)");
+    let extract = graded.mesh.extract();
+    let measures = TriangleMeasures::new(extract.view(), &ground).with_links(LengthUnit::None);
+    let quality = MeshQuality::of(&measures);
+    for (measure, worst) in [
+        (QualityMeasure::LinkLength, quality.get(QualityMeasure::LinkLength).unwrap().least.value),
+        (QualityMeasure::LinkCosine, quality.get(QualityMeasure::LinkCosine).unwrap().greatest.value),
+    ] {
+        let numbers = measures.of_all(measure).unwrap();
+        assert!(numbers.contains(&worst), "{measure:?}: {worst}");
+    }
+}

@@ -37,6 +37,12 @@ pub const EDGE_RATIOS: [f32; 2] = [1.5, 3.5];
 /// The triangles at a node with a neutral colour, as in a mesh before nodes are fitted to an outline, and
 /// with the strongest one, as solvers refuse more.
 pub const VALENCES: [f32; 2] = [8.0, 10.0];
+/// The lengths of links between cells by their size with a neutral colour, and with the strongest one: the solver
+/// removes those.
+pub const LINK_LENGTHS: [f32; 2] = [0.45, 0.09];
+/// The cosines between links and edges with a neutral colour, and with the strongest one: the largest that the
+/// solver accepts.
+pub const LINK_COSINES: [f32; 2] = [0.0, 0.5];
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;
 
@@ -153,6 +159,8 @@ impl OverlayPalette {
             QualityMeasure::LargestAngle => LARGEST_ANGLES,
             QualityMeasure::EdgeRatio => EDGE_RATIOS,
             QualityMeasure::Valence => VALENCES,
+            QualityMeasure::LinkLength => LINK_LENGTHS,
+            QualityMeasure::LinkCosine => LINK_COSINES,
         };
         self.warned((number - good) / (bad - good))
     }
@@ -226,6 +234,8 @@ mod tests {
                 ("a long triangle", palette.quality(QualityMeasure::EdgeRatio, 4.0)),
                 ("an edge longer than h̄", palette.quality(QualityMeasure::TargetRatio, 2.0)),
                 ("many triangles at a node", palette.quality(QualityMeasure::Valence, 10.0)),
+                ("a short link", palette.quality(QualityMeasure::LinkLength, 0.09)),
+                ("a skewed link", palette.quality(QualityMeasure::LinkCosine, 0.5)),
                 ("the least time step", palette.quality(QualityMeasure::TimeStep, 1.0)),
             ] {
                 assert!(contrast(color, neutral) > 3.0, "{what} {ground:?}: {}", contrast(color, neutral));
@@ -243,6 +253,8 @@ mod tests {
                 (QualityMeasure::TargetRatio, 1.0),
                 (QualityMeasure::TimeStep, 16.0),
                 (QualityMeasure::Valence, 8.0),
+                (QualityMeasure::LinkLength, 0.5),
+                (QualityMeasure::LinkCosine, 0.0),
             ];
             for (measure, number) in good {
                 assert_eq!(palette.quality(measure, number), neutral, "{measure:?}");

@@ -57,6 +57,14 @@ static SENTENCES: &[(&str, &str)] = &[
         "Overlay/Triangles at a node",
         "Shows the most triangles at a corner of each triangle: 10 and more are red, which some solvers refuse.",
     ),
+    (
+        "Overlay/Link length",
+        "Shows the shortest link between the centres of cells, by their size, with squares as Delft3D-FM gets them: red is removed.",
+    ),
+    (
+        "Overlay/Orthogonality",
+        "Shows the largest cosine between a link of Delft3D-FM and the edge that it crosses: 0 is orthogonal, red is refused.",
+    ),
     ("Solver", "The solver whose rules the mesh is checked by, as its file would have it."),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),

@@ -104,8 +104,9 @@ impl Measuring {
         let depths = NodeDepths::of(&self.layers, extract.view()).and_then(Result::ok);
         let depths = depths.map(|NodeDepths { depths, .. }| depths);
         go_on()?;
-        let mut measures =
-            TriangleMeasures::new(extract.view(), &ground).with_target(&self.field, &self.paint);
+        let mut measures = TriangleMeasures::new(extract.view(), &ground)
+            .with_target(&self.field, &self.paint)
+            .with_links(self.unit);
         if let Some(depths) = &depths {
             measures = measures.with_depths(depths, self.unit);
         }

@@ -92,6 +92,7 @@ impl MeasureRows<'_> {
         let bars: Vec<HistogramBar> = bins.iter().map(|bin| self.bar(bin)).collect();
         let nouns = match measure {
             QualityMeasure::Valence => ["node", "nodes"],
+            measure if measure.is_of_links() => ["link", "links"],
             _ => ["triangle", "triangles"],
         };
         let ends = [bins.first().map(|bin| bin.from), bins.last().map(|bin| self.end_of(bin))];
@@ -123,9 +124,10 @@ impl MeasureRows<'_> {
     fn text(&self, number: f64) -> String {
         match self.summary.measure {
             QualityMeasure::SmallestAngle | QualityMeasure::LargestAngle => angle_text(number),
-            QualityMeasure::EdgeRatio | QualityMeasure::TargetRatio => {
-                format::without_zeros(&format::fixed(number, 2)).to_owned()
-            }
+            QualityMeasure::EdgeRatio
+            | QualityMeasure::TargetRatio
+            | QualityMeasure::LinkLength
+            | QualityMeasure::LinkCosine => format::without_zeros(&format::fixed(number, 2)).to_owned(),
             QualityMeasure::TimeStep => format::time(self.courant * number),
             QualityMeasure::Valence => format::fixed(number, 0),
         }
@@ -155,6 +157,8 @@ fn name_of(measure: QualityMeasure) -> &'static str {
         QualityMeasure::TargetRatio => "Longest edge / h̄",
         QualityMeasure::TimeStep => "Time step",
         QualityMeasure::Valence => "Triangles at a node",
+        QualityMeasure::LinkLength => "Link length",
+        QualityMeasure::LinkCosine => "Orthogonality",
     }
 }
 
@@ -183,6 +187,14 @@ fn help_of(measure: QualityMeasure) -> &'static str {
         QualityMeasure::Valence => {
             "The most triangles at a node. Below are the nodes by theirs, in red from 9 on. A click goes to the node."
         }
+        QualityMeasure::LinkLength => {
+            "The shortest link between the centres of two cells, by their size, with pairs of triangles joined as Delft3D-FM \
+             gets them. It removes those below 0.09, in red. A click goes to the worst."
+        }
+        QualityMeasure::LinkCosine => {
+            "The largest cosine of the angle between a link of Delft3D-FM and the edge that it crosses: 0 is orthogonal. In red \
+             from 0.5 on, where the solver refuses it. A click goes to the worst."
+        }
     }
 }
 
@@ -195,5 +207,7 @@ fn is_bad(measure: QualityMeasure, bin: &QualityBin) -> bool {
         QualityMeasure::TargetRatio => bin.from > 0.95,
         QualityMeasure::TimeStep => false,
         QualityMeasure::Valence => bin.from >= 9.0,
+        QualityMeasure::LinkLength => bin.to <= 0.091,
+        QualityMeasure::LinkCosine => bin.from >= 0.495,
     }
 }

@@ -39,6 +39,10 @@ pub enum FieldOverlay {
     TimeStep,
     /// The triangles at the nodes of each triangle.
     Valence,
+    /// The shortest link between the cell of each triangle and its neighbours.
+    LinkLength,
+    /// How far links between cells are from crossing their edges at right angles.
+    Orthogonality,
 }
 
 impl FieldOverlay {
@@ -61,6 +65,8 @@ impl FieldOverlay {
         Self::TargetRatio,
         Self::TimeStep,
         Self::Valence,
+        Self::LinkLength,
+        Self::Orthogonality,
     ];
 
     /// Returns the overlay of a measure.
@@ -72,6 +78,8 @@ impl FieldOverlay {
             QualityMeasure::TargetRatio => Self::TargetRatio,
             QualityMeasure::TimeStep => Self::TimeStep,
             QualityMeasure::Valence => Self::Valence,
+            QualityMeasure::LinkLength => Self::LinkLength,
+            QualityMeasure::LinkCosine => Self::Orthogonality,
         }
     }
 
@@ -95,6 +103,8 @@ impl FieldOverlay {
             Self::TargetRatio => "Longest edge / h̄",
             Self::TimeStep => "Time step",
             Self::Valence => "Triangles at a node",
+            Self::LinkLength => "Link length",
+            Self::Orthogonality => "Orthogonality",
         }
     }
 
@@ -118,6 +128,8 @@ impl FieldOverlay {
             Self::TargetRatio => "Overlay longest edge / h̄",
             Self::TimeStep => "Overlay time step",
             Self::Valence => "Overlay triangles at a node",
+            Self::LinkLength => "Overlay link length",
+            Self::Orthogonality => "Overlay orthogonality",
         }
     }
 }

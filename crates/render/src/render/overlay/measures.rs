@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::{OverlayColors, PictureOverlay};
 use crate::colormap::overlay_palette::{
-    EDGE_RATIOS, LARGEST_ANGLES, MOST_SLACK, OverlayPalette, SMALLEST_ANGLES, VALENCES,
+    EDGE_RATIOS, LARGEST_ANGLES, LINK_COSINES, LINK_LENGTHS, MOST_SLACK, OverlayPalette, SMALLEST_ANGLES,
+    VALENCES,
 };
 use crate::render::furniture::Legend;
 use meshbrush_core::layers::LevelCache;
@@ -46,9 +47,9 @@ fn measure_colors(
     scale: f64,
 ) -> Vec<[u8; 4]> {
     let count = measures.mesh().triangles().len();
-    let at_corners = (measure == QualityMeasure::Valence).then(|| measures.most_at_corners());
-    let number = |triangle: usize, squares: &mut LevelCache| match &at_corners {
-        Some(counts) => Some(f64::from(counts[triangle])),
+    let of_all = measures.of_all(measure);
+    let number = |triangle: usize, squares: &mut LevelCache| match &of_all {
+        Some(numbers) => Some(numbers[triangle]).filter(|number| !number.is_nan()),
         None => measures.of(measure, triangle, squares),
     };
     let part = |from: usize| -> Vec<[u8; 4]> {
@@ -82,6 +83,12 @@ pub fn measure_legend(measure: QualityMeasure, palette: &OverlayPalette, note: S
         QualityMeasure::Valence => {
             ("Triangles at a node", from_to(VALENCES, ""), "most of the three corners".into())
         }
+        QualityMeasure::LinkLength => {
+            ("Link / cell size", from_to(LINK_LENGTHS, ""), "shortest of the cell's links".into())
+        }
+        QualityMeasure::LinkCosine => {
+            ("Orthogonality", from_to(LINK_COSINES, ""), "cosine of link and edge".into())
+        }
         QualityMeasure::TargetRatio => {
             ("Longest edge / h̄", texts(["≤ 0.5", "1", "≥ 2"]), "finer, coarser than h̄".into())
         }
@@ -100,6 +107,8 @@ fn number_of_cell(measure: QualityMeasure, cell: u16) -> f32 {
         QualityMeasure::LargestAngle => between(LARGEST_ANGLES),
         QualityMeasure::EdgeRatio => between(EDGE_RATIOS),
         QualityMeasure::Valence => between(VALENCES),
+        QualityMeasure::LinkLength => between(LINK_LENGTHS),
+        QualityMeasure::LinkCosine => between(LINK_COSINES),
         QualityMeasure::TargetRatio => (2.0 * share - 1.0).exp2(),
         QualityMeasure::TimeStep => (MOST_SLACK * share).exp2(),
     }

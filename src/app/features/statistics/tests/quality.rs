@@ -120,7 +120,7 @@ fn time_steps_follow_the_courant_number_of_the_person() {
 
 #[test]
 fn a_measure_is_shown_as_an_overlay_and_hidden_again() {
-    let mut window = window_of(TALL);
+    let mut window = window_of(vec2(TALL.x, 1.3 * TALL.y));
     open(&mut window, Example::CelticSea);
     for measure in QualityMeasure::ALL {
         let overlay = FieldOverlay::of_measure(measure);
