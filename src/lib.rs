@@ -113,7 +113,7 @@ pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, Out
 #[doc(inline)]
 pub use meshbrush_io::io::{
     Cancelled, CellShape, Counted, Flaw, JoinedCells, MeshData, MeshFormat, MeshSource, Meter, NodeValues,
-    PartitionFigures, PlaceInFile, Provenance, ReadError, ThirdCoordinate,
+    PartitionFigures, PlaceInFile, Provenance, QuantityPlaces, ReadError, ThirdCoordinate,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{

@@ -114,6 +114,13 @@ def schism_number(piece):
     return None if is_open else int(piece["kind"] == "island")
 
 
+def check_friction(path, expected):
+    """Checks the file that SCHISM reads Manning's n from."""
+    with path.open() as file:
+        nodes = pyschism_reader().buffer_to_dict(file)["nodes"].values()
+    assert np.allclose([value for _, value in nodes], expected.point_data["manning"], rtol=1e-12), "Manning's n"
+
+
 def check_selafin(path, expected, pieces):
     from serafin import SerafinReader  # tests/public_readers.py does without
 
@@ -121,6 +128,9 @@ def check_selafin(path, expected, pieces):
         file.read_header()
         file.get_time()
         header, bottom = file.header, file.read_var_in_frame(0, "B")
+        assert [name.decode().strip() for name in header.var_names] == ["BOTTOM", "BOTTOM FRICTION"], header.var_names
+        friction = file.read_var_in_frame(0, header.var_IDs[1])
+    assert np.allclose(friction, expected.point_data["manning"], rtol=1e-12), "Manning's n"
     check_mesh(expected, header.x, header.y, header.ikle_2d_zero_based, -bottom)
     types = {piece["name"]: piece["type"] for piece in pieces}
     rows = [line.split(" # ") for line in path.with_suffix(".cli").read_text().splitlines()]
@@ -139,6 +149,7 @@ def check_ugrid(path, expected, pieces):
         corners = file[topology.face_node_connectivity]
         assert file["mesh2d_node_z"].positive == "up"
         check_mesh(expected, x, y, corners[:] - corners.start_index, -file["mesh2d_node_z"][:])
+        assert np.allclose(file["mesh2d_quantity_manning"][:], expected.point_data["manning"], rtol=1e-12), "Manning's n"
         boundary = file["mesh2d_boundary"]
         names, types = boundary.flag_meanings.split(), boundary.flag_types.split()
         markers = dict(zip(boundary.flag_values.tolist(), zip(names, types, strict=True), strict=True))
@@ -177,7 +188,8 @@ def write_sea(program, folder, endings):
     (folder / "sea.geojson").write_text(json.dumps(SEA))
     (folder / "sea.toml").write_text(RECIPE)
     outputs = [word for ending in ["vtu", *endings] for word in ("-o", f"sea.{ending}")]
-    command = [program, "mesh", "sea.toml", "--json", "--cells", "triangles", "--quantity", "depth=20 + x/3 - y", *outputs]
+    outputs += ["-o", "manning.gr3"]
+    command = [program, "mesh", "sea.toml", "--json", "--cells", "triangles", "--quantity", "depth=20 + x/3 - y", "--quantity", "manning=0.02 + y/100", *outputs]
     ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder)
     pieces = json.loads(ran.stdout)["boundary"]
     assert {piece["type"] for piece in pieces} == {"open", "land", "no-slip land", "natural land", "inflow", "natural inflow"}
@@ -191,6 +203,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         expected, pieces = write_sea(str(pathlib.Path(sys.argv[1]).resolve()), folder, ["14", "gr3", "slf", "nc"])
+        check_friction(folder / "manning.gr3", expected)
         check_pyschism(folder / "sea.14", expected, pieces, adcirc_number)
         check_pyschism(folder / "sea.gr3", expected, pieces, schism_number)
         check_selafin(folder / "sea.slf", expected, pieces)

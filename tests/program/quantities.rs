@@ -145,6 +145,79 @@ fn classes_are_not_mixed_where_a_grid_is_projected() {
     assert!(nodes.iter().all(|[x, _, n]| if *x < 4.95 { *n == 1.0 } else { *x <= 5.05 || *n == 3.0 }));
 }
 
+/// Returns the third numbers of the nodes of `.gr3`.
+fn third_numbers(text: &str) -> Vec<f64> {
+    let nodes: usize = text.lines().nth(1).unwrap().split(' ').nth(1).unwrap().parse().unwrap();
+    text.lines().skip(2).take(nodes).map(|line| line.split(' ').nth(3).unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn schism_has_a_quantity_in_the_file_of_its_name() {
+    let folder = Folder::new("quantity-schism");
+    let mesh = "mesh --domain 0,0,4,3 --spacing 1 --quantity depth=5+x --quantity manning=0.02+y/100 --quantity drag=x*y";
+    let ran = folder.run(format!("{mesh} -o hgrid.gr3 -o manning.gr3 -o drag.gr3 -o out.node"));
+    assert!(ran.status == 0 && !ran.err.contains("no place"), "{}", ran.err);
+    let text = folder.read("out.node");
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .skip(1)
+        .map(|line| line.split_whitespace().map(|word| word.parse().unwrap()).collect())
+        .collect();
+    let values =
+        |value: fn(f64, f64) -> f64| rows.iter().map(|row| value(row[1], row[2])).collect::<Vec<_>>();
+    assert_eq!(third_numbers(&folder.read("hgrid.gr3")), values(|x, _| 5.0 + x));
+    assert_eq!(third_numbers(&folder.read("manning.gr3")), values(|_, y| 0.02 + y / 100.0));
+    assert_eq!(third_numbers(&folder.read("drag.gr3")), values(|x, y| x * y));
+    let title = folder.read("drag.gr3").lines().next().unwrap().to_owned();
+    assert!(title.ends_with("; values at the nodes: drag"), "{title}");
+    // But for the values the files are alike.
+    let rest =
+        |name: &str| folder.read(name).lines().skip(2 + rows.len()).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(rest("drag.gr3"), rest("hgrid.gr3"));
+    // What a file has no place for is said, and so is a file that SCHISM would misread.
+    let ran = folder.run(format!("{mesh} -o hgrid.gr3 -o drag.gr3 -o sea.mesh -o sea.2dm -o sea.vtu"));
+    for sentence in [
+        "hgrid.gr3 has no place for manning. SCHISM reads each from a file of its name: -o manning.gr3.",
+        "sea.mesh has no place for manning, drag.",
+        "sea.2dm has no place for manning, drag.",
+    ] {
+        assert!(ran.err.contains(sentence), "{sentence}: {}", ran.err);
+    }
+    assert!(!ran.err.contains("sea.vtu has no place"), "{}", ran.err);
+    let ran = folder.run("mesh --spacing 0.5 -o manning.gr3");
+    assert!(ran.status == 2 && ran.err.contains("SCHISM reads the quantity manning there"), "{}", ran.err);
+    // In a sequence the names have numbers.
+    folder.run(format!("{mesh} -o manning.gr3 --sequence 2"));
+    assert_eq!(third_numbers(&folder.read("manning_1.gr3")), values(|_, y| 0.02 + y / 100.0));
+}
+
+#[test]
+fn adcirc_has_its_attributes_beside_the_mesh() {
+    let folder = Folder::new("quantity-adcirc");
+    let mesh = "mesh --domain 0,0,4,3 --spacing 1 --quantity manning=if(x>3.5,0.1,0.02) --quantity depth=7";
+    let ran = folder.run(format!("{mesh} -o sea.14"));
+    assert!(ran.err.contains("wrote sea.14") && ran.err.contains("wrote sea.13"), "{}", ran.err);
+    let text = folder.read("sea.13");
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], folder.read("sea.14").lines().next().unwrap());
+    assert_eq!((lines[1], lines.len()), ("20", 13));
+    assert_eq!(
+        lines[2..9],
+        ["1", "mannings_n_at_sea_floor", "1", "1", "0.02", "mannings_n_at_sea_floor", "4"]
+    );
+    assert_eq!(lines[9..], ["5 0.1", "10 0.1", "15 0.1", "20 0.1"]);
+    let ran = folder.run(format!("{mesh} -o - --format fort14"));
+    assert!(ran.err.contains("standard output has no place for manning"), "{}", ran.err);
+    // The file beside it must not be one that is read.
+    folder.file("cover.asc", grid(|_, _| 1));
+    folder.file("table.13", "class,value\n1,0.02\n");
+    let of_table = "--quantity-grid n=cover.asc --quantity-table n=table.13";
+    let ran = folder.run(format!("mesh --domain 0,0,4,3 --spacing 1 {of_table} -o table.14"));
+    assert!(ran.status == 2 && ran.err.contains("table.13"), "{}", ran.err);
+    assert!(!folder.has("table.14") && folder.read("table.13").starts_with("class"));
+}
+
 #[test]
 fn grids_that_cannot_be_used_are_said_before_the_mesh_is_made() {
     let folder = Folder::new("quantity-wrong");

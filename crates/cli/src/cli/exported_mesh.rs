@@ -51,6 +51,15 @@ impl ExportedMesh<'_> {
         look: &Look,
         meter: &Meter,
     ) -> Result<Vec<PathBuf>, Failure> {
+        let names = data.quantities.iter().map(|quantity| quantity.name.as_str());
+        if let Some(name) = output.in_place_of_depth(names)? {
+            let of_name = data.quantities.iter().filter(|quantity| quantity.name == name);
+            let quantities: Vec<NodeValues> =
+                of_name.map(|of| NodeValues { name: DEPTH.into(), values: of.values.clone() }).collect();
+            let provenance = &data.provenance.clone().with_line("values at the nodes", name);
+            let data = MeshData { quantities: &quantities, provenance, ..*data };
+            return output.write(self.finished.mesh(), placed, &data, look, meter);
+        }
         let mesh = self.finished.mesh();
         let is_model = output.third_coordinate() == ThirdCoordinate::Model && data.heights.is_some();
         match self.finished.domain().projection {

@@ -105,8 +105,7 @@ fn all_files(
     let inputs: Vec<_> =
         input.files().into_iter().chain(files.iter().flat_map(RequestedFiles::read_files)).collect();
     let first_files = sequence::first_files(typed, files.clone())?;
-    let mut outputs = first_files.iter().flat_map(|files| &files.outputs);
-    outputs.try_for_each(|output| output.check_places(&inputs))?;
+    first_files.iter().try_for_each(|files| files.check_places(&inputs))?;
     typed.curve.check(&inputs)?;
     Ok(files)
 }

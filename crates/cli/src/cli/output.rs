@@ -8,12 +8,15 @@ use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::build::FinishedMesh;
 use super::color_by::{ColorBy, UnknownColorBy};
 use super::failure::Failure;
+use super::schism_files;
 use super::space_look::RequestedSpace;
 use super::standard_output::StandardOutput;
 use meshbrush_core::earth::DegreeStyle;
 use meshbrush_io::io::CellShape;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{KeyFault, MeshData, Meter, PartitionFigures, ThirdCoordinate, obstacle};
+use meshbrush_io::io::{
+    DEPTH, KeyFault, MeshData, Meter, PartitionFigures, QuantityPlaces, ThirdCoordinate, obstacle,
+};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::Number;
 use meshbrush_render::colormap::overlay_palette::OverlayPalette;
@@ -33,6 +36,8 @@ pub struct Output {
     is_binary: bool,
     /// Whether the name of the format was needed, beside the name of the file.
     is_named: bool,
+    /// The quantity that the file has in place of the depth, if there is one of that name.
+    own_quantity: Option<String>,
 }
 
 impl Output {
@@ -61,7 +66,9 @@ impl Output {
             Some(format) => format,
             None => by_ending.map_err(|error| Failure::Usage(format!("-o {error}")))?,
         };
-        Ok(Self { path: Some(path.to_owned()), format, is_binary: false, is_named: fitting.is_some() })
+        let own_quantity = schism_files::quantity_of(path, format);
+        let (path, is_named) = (Some(path.to_owned()), fitting.is_some());
+        Ok(Self { path, format, is_binary: false, is_named, own_quantity })
     }
 
     fn standard(named: Option<ExportFormat>) -> Result<Self, Failure> {
@@ -70,7 +77,7 @@ impl Output {
             return Err(Failure::Usage(format!("{problem}, as in --format vtu.")));
         };
         match format.files(Path::new("stdout")).len() {
-            1 => Ok(Self { path: None, format, is_binary: false, is_named: true }),
+            1 => Ok(Self { path: None, format, is_binary: false, is_named: true, own_quantity: None }),
             files => {
                 let problem = format!("--format {}: this format has {files} files", format.name());
                 Err(Failure::Usage(format!("{problem}, and standard output is one. Name a file with -o.")))
@@ -89,7 +96,7 @@ impl Output {
             }
             path.with_file_name(name)
         };
-        Self { path: self.path.as_ref().map(named), ..*self }
+        Self { path: self.path.as_ref().map(named), own_quantity: self.own_quantity.clone(), ..*self }
     }
 
     /// Returns the file with the part of each cell.
@@ -116,12 +123,49 @@ impl Output {
         self.path.is_none()
     }
 
-    /// Checks before the work whether its files can be written there.
+    /// Returns the name of the quantity that its file has in place of the depth, of those with these `names`:
+    /// `manning` for SCHISM's manning.gr3.
+    ///
+    /// # Errors
+    /// Fails when SCHISM looks for a quantity in a file of that name, and there is none.
+    pub fn in_place_of_depth<'a>(
+        &self,
+        mut names: impl Iterator<Item = &'a str>,
+    ) -> Result<Option<&'a str>, Failure> {
+        let Some(own) = self.own_quantity.as_deref() else { return Ok(None) };
+        let found = names.find(|name| *name == own);
+        let missing = if found.is_none() { schism_files::missing(own, &self.name()) } else { None };
+        missing.map_or(Ok(found), |sentence| Err(Failure::Usage(sentence)))
+    }
+
+    /// Returns whether SCHISM reads its files.
+    pub fn is_for_schism(&self) -> bool {
+        schism_files::is_for_schism(self.format)
+    }
+
+    /// Returns whether the quantity of this name and number, from 0, has a place in its files. Those of a
+    /// picture need none.
+    pub fn has_quantity(&self, number: usize, name: &str) -> bool {
+        let Some(mesh) = self.format.mesh() else { return true };
+        // Standard output has no file of attributes beside it.
+        let is_cut = self.is_stdout() && mesh.attributes_file(Path::new("mesh")).is_some();
+        let is_within = match mesh.quantities() {
+            QuantityPlaces::All if !is_cut => true,
+            QuantityPlaces::First => number == 0,
+            _ => name == DEPTH,
+        };
+        is_within || self.own_quantity.as_deref() == Some(name)
+    }
+
+    /// Checks before the work whether its files can be written there, with those of attributes where there
+    /// are any.
     ///
     /// # Errors
     /// Fails with the errors of [`check_place`], for each of its files.
-    pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
-        let files = self.path.iter().flat_map(|path| self.format.files(path));
+    pub fn check_places(&self, inputs: &[PathBuf], has_attributes: bool) -> Result<(), Failure> {
+        let attributes = |path: &PathBuf| self.format.mesh()?.attributes_file(path);
+        let attributes = self.path.as_ref().filter(|_| has_attributes).and_then(attributes);
+        let files = self.path.iter().flat_map(|path| self.format.files(path)).chain(attributes);
         files.into_iter().try_for_each(|file| check_place(&file, inputs))
     }
 

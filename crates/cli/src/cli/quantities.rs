@@ -156,6 +156,11 @@ impl NamedQuantity {
         Ok(Self { name: name.to_owned(), source: QuantitySource::Grid(grid) })
     }
 
+    /// Returns its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Returns whether files take it for the depth.
     pub fn is_depth(&self) -> bool {
         self.name == DEPTH

@@ -16,7 +16,7 @@ use meshbrush_core::cells::{LARGEST_COSINE, LinkFigures};
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{
-    CellShape, Interruption, KeyFault, MeshData, Meter, NodeValues, ThirdCoordinate, UnknownCells,
+    CellShape, Interruption, KeyFault, MeshData, Meter, NodeValues, SURFACE, ThirdCoordinate, UnknownCells,
     joined_cells, joined_links,
 };
 use meshbrush_mesh::mesh::Extract;
@@ -149,6 +149,40 @@ impl RequestedFiles {
         self.quantities.iter().find(|quantity| quantity.uses_depth())
     }
 
+    /// Checks before the work whether the files can be written, and have the quantities that their names ask
+    /// for.
+    ///
+    /// # Errors
+    /// Fails with a sentence about the first file that cannot be written.
+    pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
+        let has_attributes = self.quantities.iter().any(|of| !of.is_depth() && of.name() != SURFACE);
+        self.outputs.iter().try_for_each(|output| {
+            output.in_place_of_depth(self.quantities.iter().map(NamedQuantity::name))?;
+            output.check_places(inputs, has_attributes)
+        })
+    }
+
+    /// Returns a sentence for each file that has no place for some of the values at the nodes. Of SCHISM each
+    /// quantity has a file of its own.
+    fn lost_quantities(&self, values: &[NodeValues]) -> impl Iterator<Item = String> {
+        let names: Vec<&str> = values.iter().map(|of| &*of.name).filter(|name| *name != SURFACE).collect();
+        self.outputs.iter().filter_map(move |output| {
+            let has_place = |(number, name): &(usize, &str)| {
+                let is_beside = |other: &&Output| output.is_for_schism() && other.is_for_schism();
+                let mut places = self.outputs.iter().filter(is_beside).chain([output]);
+                places.any(|place| place.has_quantity(*number, name))
+            };
+            let numbered = names.iter().copied().enumerate();
+            let lost: Vec<&str> = numbered.filter(|of| !has_place(of)).map(|(_, name)| name).collect();
+            let first = lost.first()?;
+            let advice = match output.is_for_schism() {
+                true => format!(" SCHISM reads each from a file of its name: -o {first}.gr3."),
+                false => String::new(),
+            };
+            Some(format!("{} has no place for {}.{advice}", output.name(), lost.join(", ")))
+        })
+    }
+
     /// Returns the files that quantities read.
     pub fn read_files(&self) -> impl Iterator<Item = PathBuf> {
         self.quantities.iter().flat_map(NamedQuantity::files)
@@ -276,6 +310,7 @@ pub fn write_files(
             look.missing_furniture().iter().for_each(|note| terminal.note(note));
         }
         let quantities = files.values_at_nodes(&exported, Vec::new(), &mut quantity_notes)?;
+        quantity_notes.extend(files.lost_quantities(&quantities));
         let data = MeshData {
             cells: files.cells,
             parts_for: files.parts_for,
@@ -380,6 +415,7 @@ impl RequestedFiles {
         let quantities = self.values_at_nodes(exported, values, notes)?;
         let look = self.look_for(exported.finished, exported.extract)?;
         let data = exported.data(&quantities, self.is_flat);
+        notes.extend(self.lost_quantities(&quantities));
         let write = |output: &Output| exported.write(output, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }

@@ -10,7 +10,7 @@
 use std::io::{self, Write};
 
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, NodeValues, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, NodeValues, Number, QuantityPlaces, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// A table with a row for each triangle.
@@ -18,6 +18,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "Spreadsheets and scripts: a row for each triangle",
     size: TypicalSize { bytes: 164.0, bytes_per_digit: 7.0 },
     has_targets: true,
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("csv", &["csv"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 

@@ -40,6 +40,11 @@ pub struct FormatSpec {
     pub parts_file: Option<&'static str>,
     /// What the third coordinate of its nodes is.
     pub third: ThirdCoordinate,
+    /// Which quantities have a place in the files.
+    pub quantities: QuantityPlaces,
+    /// The file beside the mesh with the quantities that have no place in it, if there are any: its extension
+    /// and its writer.
+    pub attributes: Option<(&'static str, WriteMesh)>,
     /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
@@ -64,6 +69,8 @@ impl FormatSpec {
             squares: SquareCells::Impossible,
             parts_file: None,
             third: ThirdCoordinate::None,
+            quantities: QuantityPlaces::Depth,
+            attributes: None,
             beside: &[],
             write,
             write_binary: None,
@@ -91,6 +98,17 @@ pub enum ThirdCoordinate {
     Height,
     /// The height of a surface, in a format of models in space, where all coordinates are lengths.
     Model,
+}
+
+/// Which quantities, beside the height of a surface, have a place in the files of a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QuantityPlaces {
+    /// At most the depth.
+    Depth,
+    /// The first one.
+    First,
+    /// All, some of them in a file of attributes.
+    All,
 }
 
 /// How long the files of a format are, all together, as measured on graded meshes and coasts.

@@ -12,6 +12,8 @@
 //! neighbouring open pieces are one string, with their names after its numbers, and a loop that is open all
 //! around does not repeat its first node.
 //!
+//! Quantities other than the depth are attributes in a file beside it, [`fort13`].
+//!
 //! Strings that are not open have ADCIRC's number (IBTYPE) of their [`BoundaryType`]: 0 for land, 1 for an
 //! island and 2 for an inflow, where the flow across the boundary is an essential condition and the flow
 //! along it is free; 10 more without slip, and 20 more where it is a natural condition.
@@ -21,7 +23,7 @@ use std::io::{self, Write};
 use super::boundary_strings::{BoundaryString, BoundaryStrings, StringKind};
 use super::format_spec::SquareCells;
 use super::written_cells::{CellShape, WrittenCells};
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, QuantityPlaces, TypicalSize, fort13, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId};
 
@@ -30,6 +32,8 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "ADCIRC (fort.14): open boundaries, land and islands",
     size: SIZE,
     has_open_boundary: true,
+    quantities: QuantityPlaces::All,
+    attributes: Some(("13", |out, mesh, data, meter| fort13::write(&mut meter.count(out), mesh, data))),
     ..FormatSpec::new("fort14", &["14", "grd"], |out, mesh, data, meter| {
         write(&mut meter.count(out), mesh, data)
     })

@@ -55,6 +55,11 @@ impl MeshData<'_> {
         self.quantities.iter().find(|quantity| quantity.name == DEPTH).map(|depth| &*depth.values)
     }
 
+    /// The quantities that are neither the depth nor the height of a surface, such as Manning's n.
+    pub(super) fn attributes(&self) -> impl Iterator<Item = &NodeValues> {
+        self.quantities.iter().filter(|quantity| quantity.name != DEPTH && quantity.name != SURFACE)
+    }
+
     /// The third coordinate of a node: the height of the surface, 0 without one.
     pub(super) fn height(&self, node: usize) -> f64 {
         self.heights.map_or(0.0, |heights| heights[node])

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::atomic::{Draft, put_in_place, write_file_metered};
-use super::format_spec::{FormatSpec, SquareCells, ThirdCoordinate, TypicalSize, WriteMesh};
+use super::format_spec::{FormatSpec, QuantityPlaces, SquareCells, ThirdCoordinate, TypicalSize, WriteMesh};
 use super::formats::MESH_FORMATS;
 use super::partition::{self, PartLines, PartitionFigures};
 use super::{MeshData, Meter};
@@ -110,6 +110,23 @@ impl MeshFormat {
         std::iter::once(first).chain(beside).collect()
     }
 
+    /// Returns which quantities have a place in its files.
+    pub fn quantities(self) -> QuantityPlaces {
+        self.spec.quantities
+    }
+
+    /// Returns the file beside an export to `path` that is written where there are quantities other than the
+    /// depth and the surface, if the format has one.
+    pub fn attributes_file(self, path: &Path) -> Option<PathBuf> {
+        self.spec.attributes.map(|(ending, _)| self.sibling(path, ending))
+    }
+
+    /// Returns the file of the attributes and its writer, where there are any.
+    fn attributes(self, path: &Path, data: &MeshData) -> Option<(PathBuf, WriteMesh)> {
+        let (_, write) = self.spec.attributes.filter(|_| data.attributes().next().is_some())?;
+        Some((self.attributes_file(path)?, write))
+    }
+
     /// Returns the path with another extension, or with another tail in place of the tail of the format.
     fn sibling(self, path: &Path, ending: &str) -> PathBuf {
         if self.spec.tail.is_empty() {
@@ -130,8 +147,9 @@ impl MeshFormat {
         }
     }
 
-    /// Writes a mesh, and returns the paths of the files: [`Self::files`]. The meter knows the number of
-    /// bytes in all only for `.vtu`, `.stl` and `.nc`.
+    /// Writes a mesh, and returns the paths of the files: [`Self::files`], and [`Self::attributes_file`]
+    /// where there are attributes. The meter knows the number of bytes in all only for `.vtu`, `.stl` and
+    /// `.nc`.
     ///
     /// # Errors
     /// Fails with the errors of the file system, when the format cannot hold the mesh, and when the work was
@@ -144,15 +162,17 @@ impl MeshFormat {
         data: &MeshData,
         meter: &Meter,
     ) -> io::Result<Vec<PathBuf>> {
-        let files = self.files(path);
         let writers = std::iter::once(self.writer()).chain(self.spec.beside.iter().map(|(_, write)| *write));
-        let draft = |(file, write): (&PathBuf, WriteMesh)| {
+        let attributes = self.attributes(path, data);
+        let files: Vec<(PathBuf, WriteMesh)> =
+            self.files(path).into_iter().zip(writers).chain(attributes).collect();
+        let draft = |(file, write): &(PathBuf, WriteMesh)| {
             Draft::write(file, meter, |out| write(out, mesh, data, meter))
         };
         // None replaces an old file before all are written: they would not match each other.
-        let drafts = files.iter().zip(writers).map(draft).collect::<io::Result<Vec<_>>>()?;
+        let drafts = files.iter().map(draft).collect::<io::Result<Vec<_>>>()?;
         put_in_place(drafts, meter)?;
-        Ok(files)
+        Ok(files.into_iter().map(|(file, _)| file).collect())
     }
 
     /// Returns the file with the part of each cell, beside an export to `path`: the one in which the solver
@@ -199,7 +219,8 @@ impl MeshFormat {
     pub fn exact_bytes(self, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<u64> {
         let mut count = ByteCount(0);
         let writers = std::iter::once(self.writer()).chain(self.spec.beside.iter().map(|(_, write)| *write));
-        for write in writers {
+        let attributes = self.attributes(Path::new("mesh"), data).map(|(_, write)| write);
+        for write in writers.chain(attributes) {
             write(&mut meter.count(&mut count), mesh, data, meter)?;
         }
         Ok(count.0)

@@ -37,6 +37,7 @@ mod features;
 mod folder;
 mod format_spec;
 mod formats;
+pub mod fort13;
 pub mod fort14;
 pub mod fvcom;
 mod gdal_metadata;
@@ -116,8 +117,8 @@ pub use error::{Flaw, PlaceInFile, ReadError};
 pub use fault::{FaultPart, KeyFault, KeyStep, Mark, nearest_word};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use format_spec::{
-    FileGrid, FormatSpec, GridPlace, GridWindow, RasterFormatSpec, ReadRaster, SquareCells, ThirdCoordinate,
-    TypicalSize,
+    FileGrid, FormatSpec, GridPlace, GridWindow, QuantityPlaces, RasterFormatSpec, ReadRaster, SquareCells,
+    ThirdCoordinate, TypicalSize,
 };
 pub use given::{Given, GivenGrid};
 pub use interrupt::Interruption;

@@ -14,7 +14,7 @@ use std::io::{self, Write};
 
 use super::format_spec::SquareCells;
 use super::written_cells::WrittenCells;
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, QuantityPlaces, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId};
 
@@ -26,6 +26,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     squares: SquareCells::Possible,
     third: ThirdCoordinate::Height,
     write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("msh", &["msh"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 

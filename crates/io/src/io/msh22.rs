@@ -11,7 +11,7 @@
 use std::io::{self, Write};
 
 use super::msh::{Curve, LINE, SURFACE, TRIANGLE, write_names, write_text_views};
-use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, QuantityPlaces, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Gmsh 2.2.
@@ -20,6 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     size: TypicalSize { bytes: 70.0, bytes_per_digit: 5.5 },
     has_targets: true,
     third: ThirdCoordinate::Height,
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("msh22", &["msh2", "msh"], |out, mesh, data, meter| {
         write(&mut meter.count(out), mesh, data)
     })

@@ -12,7 +12,7 @@
 use std::io::{self, Write};
 
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, QuantityPlaces, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// The number of the first node, triangle and edge.
@@ -28,6 +28,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
         ("neigh", |out, mesh, data, meter| write_neighbours(&mut meter.count(out), mesh, data)),
         ("edge", |out, mesh, data, meter| write_edges(&mut meter.count(out), mesh, data)),
     ],
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("node", &["node"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 

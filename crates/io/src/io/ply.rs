@@ -7,7 +7,7 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, ThirdCoordinate, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, QuantityPlaces, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Stanford's format.
@@ -16,6 +16,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     size: TypicalSize { bytes: 30.0, bytes_per_digit: 0.0 },
     has_targets: true,
     third: ThirdCoordinate::Model,
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("ply", &["ply"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 

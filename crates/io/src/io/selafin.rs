@@ -1,9 +1,10 @@
 //! `.slf` and `.cli`: SELAFIN, the mesh of TELEMAC in double precision, and its boundary conditions.
 //!
 //! SELAFIN is a sequence of Fortran records, big-endian: each has its length in bytes before and after it.
-//! Numbers start at one. The only variable is `BOTTOM`, the height of the ground in metres, positive upwards,
-//! at time 0. IPOBO is the place of a node along the boundary: outer loops anticlockwise, then holes
-//! clockwise.
+//! Numbers start at one. The variables, at time 0, are `BOTTOM`, the height of the ground in metres, positive
+//! upwards, and the quantities other than the depth: `manning` is `BOTTOM FRICTION`, and others have their
+//! own names in capitals, with blanks for `_`. IPOBO is the place of a node along the boundary: outer loops
+//! anticlockwise, then holes clockwise.
 //!
 //! `.cli` has a line for each boundary node in that order. Open nodes are `5 4 4` (the water level is given,
 //! the velocity free), those of inflows `4 5 5` (the flow is given, and tracers too), those of land without
@@ -14,7 +15,7 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, LAND};
-use super::{FormatSpec, MeshData, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, NodeValues, QuantityPlaces, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::Grouped;
@@ -24,6 +25,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "TELEMAC (SELAFIN): two files, mesh and boundary conditions",
     size: TypicalSize { bytes: 33.0, bytes_per_digit: 0.0 },
     has_open_boundary: true,
+    quantities: QuantityPlaces::All,
     beside: &[("cli", |out, mesh, data, meter| write_conditions(&mut meter.count(out), mesh, data))],
     ..FormatSpec::new("slf", &["slf"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
@@ -31,16 +33,18 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// Bytes of the title, and the word after it that says that real numbers have eight bytes.
 const TITLE: usize = 72;
 const DOUBLE: &[u8; 8] = b"SERAFIND";
-/// The variable and its unit, 16 bytes each.
-const VARIABLE: &[u8; 32] = b"BOTTOM          M               ";
+/// Bytes of the name of a variable, and of its unit.
+const NAME: usize = 16;
+/// The names of quantities that TELEMAC calls otherwise.
+const NAMES: [(&str, &str); 1] = [("manning", "BOTTOM FRICTION")];
 /// Most bytes of a record.
 const LONGEST_RECORD: usize = i32::MAX as usize;
 
 /// Writes `.slf`.
 ///
 /// # Errors
-/// Fails with the errors of `out`, where the boundary touches itself in a node, and for a mesh with more
-/// nodes or triangles than a record can hold.
+/// Fails with the errors of `out`, where the boundary touches itself in a node, for a mesh with more nodes or
+/// triangles than a record can hold, and where two quantities have one name in 16 letters.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
     check_size(nodes, triangles)?;
@@ -54,8 +58,11 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         out.write_all(&title)?;
         out.write_all(DOUBLE)
     })?;
-    write_integers(out, &[1, 0])?; // one variable; none of those in quadratic elements
-    write_record(out, VARIABLE.len(), |out| out.write_all(VARIABLE))?;
+    let names = variables(data)?;
+    write_integers(out, &[names.len() as i32, 0])?; // none in quadratic elements
+    for (name, unit) in names.iter().zip(["M"].into_iter().chain(std::iter::repeat(""))) {
+        write_record(out, 2 * NAME, |out| write!(out, "{name:NAME$}{unit:NAME$}"))?;
+    }
     // No origin, one plane, no date.
     write_integers(out, &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0])?;
     write_integers(out, &[triangles as i32, nodes as i32, 3, 1])?;
@@ -71,7 +78,26 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     write_reals(out, nodes, |node| mesh.world(NodeId::from_index(node)).x)?;
     write_reals(out, nodes, |node| mesh.world(NodeId::from_index(node)).y)?;
     write_reals(out, 1, |_| 0.0)?; // the time
-    write_reals(out, nodes, |node| data.ground(node))
+    write_reals(out, nodes, |node| data.ground(node))?;
+    data.attributes().try_for_each(|of| write_reals(out, nodes, |node| of.values[node]))
+}
+
+/// Returns the names of the variables: the ground, and the quantities.
+fn variables(data: &MeshData) -> io::Result<Vec<String>> {
+    let mut names = vec!["BOTTOM".to_owned()];
+    for NodeValues { name, .. } in data.attributes() {
+        let known = NAMES.iter().find(|(own, _)| own == name).map(|(_, known)| (*known).to_owned());
+        let own = || name.to_uppercase().replace('_', " ").trim().chars().take(NAME).collect::<String>();
+        let variable = known.unwrap_or_else(own);
+        if names.contains(&variable) {
+            return Err(io::Error::other(format!(
+                "SELAFIN has names of {NAME} letters, and the quantity {name} would be {variable} there, as another \
+                 variable is; give it another name"
+            )));
+        }
+        names.push(variable);
+    }
+    Ok(names)
 }
 
 /// Writes `.cli`.

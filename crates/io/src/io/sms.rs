@@ -10,7 +10,10 @@
 use std::io::{self, Write};
 
 use super::written_cells::WrittenCells;
-use super::{FormatSpec, MeshData, Number, SURFACE, SquareCells, ThirdCoordinate, TypicalSize, write_rows};
+use super::{
+    FormatSpec, MeshData, Number, QuantityPlaces, SURFACE, SquareCells, ThirdCoordinate, TypicalSize,
+    write_rows,
+};
 use meshbrush_mesh::mesh::{Extract, NodeId};
 
 /// SMS.
@@ -20,6 +23,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     has_open_boundary: true,
     squares: SquareCells::Possible,
     third: ThirdCoordinate::Height,
+    quantities: QuantityPlaces::First,
     ..FormatSpec::new("2dm", &["2dm"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 

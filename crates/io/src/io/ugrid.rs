@@ -19,7 +19,7 @@ use super::netcdf_writer::{AttributeValue, Attributes, Dataset, VariableType, Wr
 use super::partition::Partition;
 use super::triangle_pieces::TrianglePieces;
 use super::written_cells::WrittenCells;
-use super::{FormatSpec, MeshData, Meter, SquareCells, TypicalSize};
+use super::{FormatSpec, MeshData, Meter, QuantityPlaces, SquareCells, TypicalSize};
 use meshbrush_mesh::mesh::{Extract, MeshEdge, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -29,6 +29,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     size: TypicalSize { bytes: 52.0, bytes_per_digit: 0.0 },
     has_targets: true,
     squares: SquareCells::Usual,
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("ugrid", &["nc"], |mut out, mesh, data, meter| {
         write_metered(&mut out, mesh, data, meter)
     })

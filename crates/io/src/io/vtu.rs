@@ -26,7 +26,7 @@ use std::io::{self, Write};
 use super::blocks::{BLOCK, Blocks};
 use super::format_spec::SquareCells;
 use super::written_cells::WrittenCells;
-use super::{FormatSpec, MeshData, Meter, ThirdCoordinate, TypicalSize};
+use super::{FormatSpec, MeshData, Meter, QuantityPlaces, ThirdCoordinate, TypicalSize};
 use meshbrush_mesh::mesh::Extract;
 
 /// VTK's unstructured grid.
@@ -36,6 +36,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     has_targets: true,
     squares: SquareCells::Possible,
     third: ThirdCoordinate::Height,
+    quantities: QuantityPlaces::All,
     ..FormatSpec::new("vtu", &["vtu"], |mut out, mesh, data, meter| {
         write_metered(&mut out, mesh, data, meter)
     })

@@ -23,11 +23,14 @@ use crate::formula_mesh::formula_mesh;
 use crate::netcdf_reader::{Attribute, NetCdf};
 use crate::runs::seeds;
 
+mod attributes;
 mod disv;
 mod gmsh;
 mod open_strings;
 mod squares;
 mod types;
+
+use attributes::{Selafin, read_selafin};
 
 /// A mesh as a solver sees it. Numbers start at zero.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -377,7 +380,7 @@ fn without_a_depth_it_is_zero_and_never_the_target_diameter() {
     assert!(seen.depths.iter().all(|depth| depth.to_bits() == 0) && land.is_empty() && open.len() == 1);
     assert!(read_mike(&case.text(mike::write)).0.depths.iter().all(|&depth| depth == 0.0));
     assert!(!case.text(mike::write).contains(" -0 "));
-    let bottom = read_selafin(&case.written(selafin::write)).0.depths;
+    let bottom = read_selafin(&case.written(selafin::write)).seen.depths;
     assert!(bottom.iter().all(|depth| depth.to_bits() == (-0.0_f64).to_bits()), "the file has 0 and not -0");
 }
 
@@ -511,43 +514,10 @@ fn an_open_piece_of_which_no_edge_would_remain_is_refused_where_nodes_are_marked
     assert!(!case.text(ww3::write).is_empty());
 }
 
-/// Reads the records of a SELAFIN file: also IPOBO and the title.
-fn read_selafin(file: &[u8]) -> (Seen, Vec<i32>, String) {
-    let (mut records, mut at) = (Vec::new(), 0);
-    let length = |at: usize| i32::from_be_bytes(file[at..at + 4].try_into().unwrap()) as usize;
-    while at < file.len() {
-        let bytes = length(at);
-        records.push(&file[at + 4..at + 4 + bytes]);
-        assert_eq!(length(at + 4 + bytes), bytes, "the lengths before and after a record");
-        at += 8 + bytes;
-    }
-    let ints = |record: &[u8]| -> Vec<i32> {
-        record.chunks(4).map(|b| i32::from_be_bytes(b.try_into().unwrap())).collect()
-    };
-    let reals = |record: &[u8]| -> Vec<f64> {
-        record.chunks(8).map(|b| f64::from_be_bytes(b.try_into().unwrap())).collect()
-    };
-    let [title, variables, bottom, parameters, sizes, corners, places, x, y, time, z] = records[..] else {
-        panic!("{} records", records.len())
-    };
-    assert_eq!((title.len(), &title[72..]), (80, &b"SERAFIND"[..]));
-    assert_eq!((ints(variables), ints(parameters)), (vec![1, 0], vec![1, 0, 0, 0, 0, 0, 0, 0, 0, 0]));
-    assert_eq!(std::str::from_utf8(bottom).unwrap(), format!("{:16}{:16}", "BOTTOM", "M"));
-    let corners: Vec<usize> = ints(corners).into_iter().map(|node| node as usize - 1).collect();
-    let seen = Seen {
-        nodes: reals(x).into_iter().zip(reals(y)).map(|(x, y)| dvec2(x, y)).collect(),
-        depths: reals(z).into_iter().map(|z| -z).collect(),
-        triangles: corners.chunks(3).map(|corners| corners.try_into().unwrap()).collect(),
-    };
-    assert_eq!(ints(sizes), [seen.triangles.len() as i32, seen.nodes.len() as i32, 3, 1]);
-    assert_eq!(reals(time), [0.0]);
-    (seen, ints(places), String::from_utf8(title[..72].to_vec()).unwrap())
-}
-
 #[test]
 fn selafin_reads_back_with_its_boundary_conditions() {
     for case in cases().into_iter().chain([frame()]) {
-        let (seen, places, title) = read_selafin(&case.written(selafin::write));
+        let Selafin { seen, places, title, .. } = read_selafin(&case.written(selafin::write));
         assert_eq!(seen, case.expected());
         assert!(title.starts_with("Meshbrush ") && title.contains(", fingerprint "), "{title}");
         // Along IPOBO, each node is followed by the next one of its loop, or by the first of another loop.
