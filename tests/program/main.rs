@@ -5,6 +5,7 @@ mod check;
 mod cli;
 mod data_formats;
 mod depth;
+mod depth_slope;
 mod distance_pieces;
 mod earth;
 mod folder;

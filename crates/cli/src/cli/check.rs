@@ -44,7 +44,7 @@ pub fn run(
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
     let given_depth = quantities.iter().find(|quantity| quantity.is_depth());
-    let uses = DetailUses { json: false, node_data: true, given_depth, least_depth: typed.least_depth };
+    let uses = DetailUses { json: false, node_data: true, given_depth, depth_changes: typed.depths.into() };
     let details = MeshDetails::of(&finished, &extract, line, &input, coordinates, uses)?;
     let provenance = &details.provenance;
     let exported = ExportedMesh {

@@ -3,9 +3,12 @@
 
 use serde::Serialize;
 
+use super::args::DepthArguments;
 use super::build::FinishedMesh;
-use meshbrush_core::layers::{CourantFit, DepthFit, EdgeTimes, LargestTimeStep, NodeDepths};
+use meshbrush_core::layers::{CourantFit, DepthFit, DepthSlope, EdgeTimes, LargestTimeStep, NodeDepths};
+use meshbrush_io::io::Provenance;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
+use meshbrush_mesh::text::digits;
 
 /// A least depth, and what it changed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -22,6 +25,94 @@ impl LeastDepth {
         let lower = depths.iter_mut().filter(|of_node| **of_node < depth);
         let raised = lower.map(|of_node| *of_node = depth).count();
         Self { depth, raised }
+    }
+}
+
+/// How depths are changed for files.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DepthChanges {
+    /// The least depth, in metres.
+    pub least: Option<f64>,
+    /// The largest r-factor of an edge.
+    pub slope: Option<f64>,
+}
+
+/// What was changed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ChangedDepths {
+    /// By the least depth, if there is one.
+    pub least: Option<LeastDepth>,
+    /// By the largest r-factor, if there is one.
+    pub slope: Option<DepthSlope>,
+}
+
+impl From<DepthArguments> for DepthChanges {
+    fn from(typed: DepthArguments) -> Self {
+        let DepthArguments { least_depth, depth_slope } = typed;
+        Self { least: least_depth, slope: depth_slope }
+    }
+}
+
+impl DepthChanges {
+    /// Returns whether nothing is changed.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Changes depths: first those below the least one are raised, and then all are smoothed, which leaves
+    /// none below it.
+    pub fn apply(&self, mesh: &Extract, depths: &mut [f64]) -> ChangedDepths {
+        let least = self.least.map(|least| LeastDepth::raise(least, depths));
+        let slope = self.slope.map(|slope| DepthSlope::smooth(mesh.view(), depths, slope));
+        ChangedDepths { least, slope }
+    }
+}
+
+impl ChangedDepths {
+    /// Returns the origin of a mesh with a line for each change.
+    pub fn said_in(&self, provenance: Provenance) -> Provenance {
+        let provenance = match self.least {
+            Some(LeastDepth { depth, .. }) => provenance.with_line("least depth", &format!("{depth} m")),
+            None => provenance,
+        };
+        match self.slope {
+            Some(DepthSlope { limit, changed, largest, .. }) => provenance.with_line(
+                "depth slope",
+                &format!(
+                    "r-factor of edges at most {limit}; {changed} nodes changed, by at most {} m",
+                    digits(largest.abs(), 3)
+                ),
+            ),
+            None => provenance,
+        }
+    }
+}
+
+/// The smoothing of depths to a slope, in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DepthSlopeSummary {
+    /// The largest r-factor that was asked for.
+    pub limit: f64,
+    /// The largest r-factor of an edge before.
+    pub before: f64,
+    /// The largest one afterwards.
+    pub after: f64,
+    /// The nodes whose depth changed.
+    pub changed: usize,
+    /// The largest change, in metres: positive where the node is deeper now.
+    pub largest_change: f64,
+    /// The node of the largest change.
+    pub at: [f64; 2],
+    /// The water that there is more of, as a share of all of it.
+    pub more_water: f64,
+    /// Nodes that are dry, whose edges do not count.
+    pub dry: usize,
+}
+
+impl From<DepthSlope> for DepthSlopeSummary {
+    fn from(slope: DepthSlope) -> Self {
+        let DepthSlope { limit, before, after, changed, largest, at, more_water, dry } = slope;
+        Self { limit, before, after, changed, largest_change: largest, at: at.into(), more_water, dry }
     }
 }
 

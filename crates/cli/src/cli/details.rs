@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::depths::{LeastDepth, TimeStepSummary};
+use super::depths::{ChangedDepths, DepthChanges, TimeStepSummary};
 use super::failure::Failure;
 use super::input::Input;
 use super::output_coordinates::OutputCoordinates;
@@ -39,8 +39,10 @@ pub struct MeshDetails {
     pub courant: Option<CourantFit>,
     /// What h̄ of the mesh is multiplied by in files: less than 1 where its triangles were cut.
     pub target_factor: f64,
-    /// The least depth in files, if one is given and there are depths.
-    pub least_depth: Option<LeastDepth>,
+    /// What was changed of the depths for files, where there are depths.
+    pub changed_depths: ChangedDepths,
+    /// How they are changed.
+    pub depth_changes: DepthChanges,
     /// The largest stable time step, if there are depths, and lengths are no degrees.
     pub largest_time_step: Option<TimeStepSummary>,
     /// How good the triangles are, if it is wanted.
@@ -62,8 +64,8 @@ pub struct DetailUses<'a> {
     pub node_data: bool,
     /// The quantity that gives the depth at each node in place of layers, if one does.
     pub given_depth: Option<&'a NamedQuantity>,
-    /// The least depth in files, in metres.
-    pub least_depth: Option<f64>,
+    /// How depths are changed for files.
+    pub depth_changes: DepthChanges,
 }
 
 impl MeshDetails {
@@ -106,16 +108,12 @@ impl MeshDetails {
             let values = quantity.at_nodes(finished, extract, of_layers, &mut quantity_notes)?.values;
             given = Some((quantity.clone(), values));
         }
-        let unchanged_depths = uses.least_depth.and(of_layers).map(<[f64]>::to_vec);
-        let raised =
-            [depths.as_mut().map(|depths| &mut depths.depths), given.as_mut().map(|(_, values)| values)]
-                .map(|values| Some(LeastDepth::raise(uses.least_depth?, values?)));
-        let [of_layers, of_quantity] = raised;
-        let least_depth = of_quantity.or(of_layers);
-        let provenance = match least_depth {
-            Some(LeastDepth { depth, .. }) => provenance.with_line("least depth", &format!("{depth} m")),
-            None => provenance,
-        };
+        let unchanged_depths = of_layers.filter(|_| !uses.depth_changes.is_empty()).map(<[f64]>::to_vec);
+        let change = |values: &mut Vec<f64>| uses.depth_changes.apply(extract, values);
+        let of_layers = depths.as_mut().map(|depths| change(&mut depths.depths));
+        let of_quantity = given.as_mut().map(|(_, values)| change(values));
+        let changed_depths = of_quantity.or(of_layers).unwrap_or_default();
+        let provenance = changed_depths.said_in(provenance);
         let courant = depths.as_ref().and_then(|depths| {
             let ground = finished.ground();
             CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
@@ -139,7 +137,8 @@ impl MeshDetails {
             quantity_notes,
             courant,
             target_factor: 1.0,
-            least_depth,
+            changed_depths,
+            depth_changes: uses.depth_changes,
             largest_time_step,
             quality,
             surface,

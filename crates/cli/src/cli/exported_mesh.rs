@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use super::build::FinishedMesh;
-use super::depths::LeastDepth;
 use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::Output;
@@ -91,8 +90,8 @@ impl ExportedMesh<'_> {
             }
             let of_layers = details.depths_of_layers();
             let mut found = quantity.at_nodes(self.finished, self.extract, of_layers, notes)?;
-            if let (true, Some(LeastDepth { depth, .. })) = (quantity.is_depth(), details.least_depth) {
-                LeastDepth::raise(depth, &mut found.values);
+            if quantity.is_depth() {
+                details.depth_changes.apply(self.extract, &mut found.values);
             }
             values.push(found);
         }

@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use super::args::MeshArguments;
+use super::args::{DepthArguments, MeshArguments};
 use super::build::FinishedMesh;
-use super::depths::LeastDepth;
+use super::depths::{ChangedDepths, LeastDepth};
 use super::details::{DetailUses, MeshDetails, StraitSummary, provenance};
 use super::failure::Failure;
 use super::input::Input;
@@ -17,11 +17,11 @@ use super::sequence::{self, SequenceStart};
 use super::standard_output;
 use super::summary::Summary;
 use super::terminal::Terminal;
-use meshbrush_core::layers::{CourantFit, SurfaceNorm};
+use meshbrush_core::layers::{CourantFit, DepthSlope, SurfaceNorm};
 use meshbrush_core::surface::SampleCount;
 use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
-use meshbrush_mesh::text::Grouped;
+use meshbrush_mesh::text::{Grouped, digits};
 
 /// How many broken invariants are printed one by one; the rest are counted.
 const SHOWN_VIOLATIONS: usize = 20;
@@ -53,7 +53,7 @@ pub fn run(
     let wants_details = typed.json || writes;
     let node_data = files.iter().any(RequestedFiles::wants_node_data);
     let given_depth = files.iter().find_map(RequestedFiles::depth);
-    let uses = DetailUses { json: typed.json, node_data, given_depth, least_depth: typed.least_depth };
+    let uses = DetailUses { json: typed.json, node_data, given_depth, depth_changes: typed.depths.into() };
     let (details, mut summary) = terminal.while_working("measuring the mesh", || {
         let details =
             wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, coordinates, uses));
@@ -66,7 +66,7 @@ pub fn run(
     }
     repaired.iter().for_each(|repaired| terminal.note(&repaired.for_people()));
     summary.repaired = repaired;
-    note_least_depth(typed.least_depth, details.as_ref(), terminal);
+    note_changed_depths(typed.depths, details.as_ref(), terminal);
     note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
     let origin = || provenance(&finished, line, &input, OutputCoordinates::Plane);
     typed.curve.write((&finished, &extract), details.as_ref(), origin, terminal)?;
@@ -172,18 +172,53 @@ fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
     }
 }
 
-/// Tells the user how many nodes have the least depth in place of their own, or that it changes nothing.
-fn note_least_depth(asked: Option<f64>, details: Option<&MeshDetails>, terminal: &mut Terminal) {
-    match (asked, details.and_then(|details| details.least_depth)) {
-        (Some(_), None) => terminal.note(
-            "--least-depth changes nothing: nothing is written with depths (--depth, or --quantity depth=EXPR).",
-        ),
-        (_, Some(LeastDepth { depth, raised: raised @ 1.. })) => {
-            let nodes = Grouped(raised);
-            terminal.note(&format!("{nodes} nodes are less than {depth} m deep, and are written with {depth} m."));
+/// Tells the user how depths differ from those of layers or of a quantity, or that nothing has depths.
+fn note_changed_depths(asked: DepthArguments, details: Option<&MeshDetails>, terminal: &mut Terminal) {
+    let ChangedDepths { least, slope } = details.map(|details| details.changed_depths).unwrap_or_default();
+    for (option, is_idle) in [
+        ("--least-depth", asked.least_depth.is_some() && least.is_none()),
+        ("--depth-slope", asked.depth_slope.is_some() && slope.is_none()),
+    ] {
+        if is_idle {
+            terminal.note(&format!(
+                "{option} changes nothing: nothing is written with depths (--depth, or --quantity depth=EXPR)."
+            ));
         }
-        _ => {}
     }
+    if let Some(LeastDepth { depth, raised: raised @ 1.. }) = least {
+        let nodes = Grouped(raised);
+        terminal
+            .note(&format!("{nodes} nodes are less than {depth} m deep, and are written with {depth} m."));
+    }
+    if let Some(slope) = slope {
+        terminal.note(&slope_in_words(slope));
+    }
+}
+
+/// Returns a sentence about depths that were smoothed, and one about dry nodes.
+fn slope_in_words(slope: DepthSlope) -> String {
+    let DepthSlope { limit, before, changed, largest, at, more_water, dry, .. } = slope;
+    let dry = match dry {
+        0 => String::new(),
+        dry => format!(
+            " {} nodes are dry (a depth of 0 or less): their edges have no r-factor, and stay; --least-depth makes them wet.",
+            Grouped(dry)
+        ),
+    };
+    if changed == 0 {
+        return format!("No edge has an r-factor above {limit}: depths are written as they are.{dry}");
+    }
+    let way = if largest > 0.0 { "deeper" } else { "shallower" };
+    format!(
+        "The largest r-factor of an edge was {}, and is {limit} now: {} nodes have another depth, the largest change is {} m \
+         ({way}), at x = {}, y = {}, and there is {} % more water.{dry}",
+        digits(before, 3),
+        Grouped(changed),
+        digits(largest.abs(), 3),
+        at.x,
+        at.y,
+        digits(100.0 * more_water, 2),
+    )
 }
 
 /// Tells the user how many edges exceed the Courant number of a layer.

@@ -4,7 +4,9 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::depths::{CourantSummary, DepthSummary, HeightTimeStep, LeastDepth, TimeStepSummary};
+use super::depths::{
+    CourantSummary, DepthSlopeSummary, DepthSummary, HeightTimeStep, LeastDepth, TimeStepSummary,
+};
 use super::details::{
     LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary, SurfaceSummary,
 };
@@ -65,6 +67,9 @@ pub struct Summary {
     /// The least depth in files, if one is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_depth: Option<LeastDepth>,
+    /// How depths were smoothed to a slope, if that is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth_slope: Option<DepthSlopeSummary>,
     /// The largest stable time step, if there are depths, and lengths are no degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_time_step: Option<TimeStepSummary>,
@@ -334,7 +339,8 @@ impl Summary {
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
             courant: details.and_then(|details| details.courant).map(CourantSummary::from),
             largest_time_step: details.and_then(|details| details.largest_time_step),
-            least_depth: details.and_then(|details| details.least_depth),
+            least_depth: details.and_then(|details| details.changed_depths.least),
+            depth_slope: details.and_then(|details| details.changed_depths.slope).map(Into::into),
             surface: fit
                 .as_ref()
                 .zip(finished.built().surface.as_ref())

@@ -6,6 +6,7 @@ mod certificate;
 mod cleaning;
 #[path = "../../../../tests/shared/closure/mod.rs"]
 mod closure;
+mod depth_slope;
 mod depths;
 mod distance_to_pieces;
 mod document;

@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::depths::DepthArguments;
 use super::error_curve::ErrorCurveArguments;
 use super::help::{format_help, format_long_help, output_help, output_long_help};
 use super::input::InputArguments;
+use super::numbers::positive;
 use super::picture::PictureArguments;
 use super::quantities::QuantityArguments;
 use super::space::SpaceArguments;
@@ -89,12 +91,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Output")]
     pub parts_for: Option<u32>,
 
-    /// Least depth in files, in metres: nodes that are less deep are written with it
-    ///
-    /// As in 3: at the shore depths are 0, and such nodes fall dry. The mesh stays as it is. Headers say it,
-    /// and the report says how many nodes have it.
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = finite, help_heading = "Output")]
-    pub least_depth: Option<f64>,
+    #[command(flatten, next_help_heading = "Output")]
+    pub depths: DepthArguments,
 
     #[command(flatten)]
     pub curve: ErrorCurveArguments,
@@ -112,16 +110,4 @@ pub struct MeshArguments {
 
     #[command(flatten)]
     pub space: SpaceArguments,
-}
-
-/// Reads a number that is finite.
-pub fn finite(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-    number.ok_or_else(|| "write a number, as in 3 or 0.5".to_owned())
-}
-
-/// Reads a number above 0.
-pub fn positive(text: &str) -> Result<f64, String> {
-    let number = finite(text).ok().filter(|number| *number > 0.0);
-    number.ok_or_else(|| "write a number above 0, as in 0.5".to_owned())
 }

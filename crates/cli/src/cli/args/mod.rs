@@ -2,12 +2,14 @@
 //!
 //! Each file has the options of a command, or of one matter of several commands. None runs anything.
 
+mod depths;
 mod distances;
 mod earth;
 mod error_curve;
 mod help;
 mod input;
 mod mesh;
+mod numbers;
 mod other;
 mod path;
 mod picture;
@@ -23,6 +25,7 @@ use std::path::PathBuf;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 
+pub use depths::DepthArguments;
 pub use earth::EarthArguments;
 pub use error_curve::ErrorCurveArguments;
 pub use input::{BoundaryArgument, InputArguments};

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::depths::DepthArguments;
 use super::input::InputArguments;
-use super::mesh::{finite, positive};
+use super::numbers::positive;
 use super::quantities::QuantityArguments;
 use crate::cli::output_coordinates::OutputCoordinates;
 use meshbrush_io::io::CellShape;
@@ -37,9 +38,8 @@ pub struct CheckArguments {
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = positive, help_heading = "Rules")]
     pub scale: Option<f64>,
 
-    /// Least depth in the file, as for `meshbrush mesh`
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, value_parser = finite, help_heading = "Rules")]
-    pub least_depth: Option<f64>,
+    #[command(flatten, next_help_heading = "Rules")]
+    pub depths: DepthArguments,
 
     /// Bisect triangles that break a rule once more, where that helps, before the rules are checked, and
     /// print the layers that ask for it, to be added to the recipe
