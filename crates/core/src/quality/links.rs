@@ -32,8 +32,8 @@ impl MeasuredLinks {
         Self { links, triangles: sides.into_iter().map(both).collect() }
     }
 
-    /// Returns the worst link of the cell of each of so many triangles: the least share, or the largest cosine
-    /// of a link that the solver keeps; NaN without one.
+    /// Returns the worst link of the cell of each of so many triangles: the least share, or the largest
+    /// cosine of a link that the solver keeps; NaN without one.
     pub(super) fn worst(&self, triangles: usize, by_length: bool) -> Vec<f64> {
         let mut worst = vec![f64::NAN; triangles];
         for (link, owners) in self.links.iter().zip(&self.triangles) {

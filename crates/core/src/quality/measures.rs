@@ -140,7 +140,8 @@ impl<'a> TriangleMeasures<'a> {
     }
 
     /// Returns a number of each triangle that is not found by looking at it alone: the greatest number of
-    /// triangles at its corners, or the worst link of its cell; NaN without a link. `None` for other measures.
+    /// triangles at its corners, or the worst link of its cell; NaN without a link. `None` for other
+    /// measures.
     pub fn of_all(&self, measure: QualityMeasure) -> Option<Vec<f64>> {
         match measure {
             QualityMeasure::Valence => Some(self.most_at_corners().into_iter().map(f64::from).collect()),

@@ -37,11 +37,11 @@ pub const EDGE_RATIOS: [f32; 2] = [1.5, 3.5];
 /// The triangles at a node with a neutral colour, as in a mesh before nodes are fitted to an outline, and
 /// with the strongest one, as solvers refuse more.
 pub const VALENCES: [f32; 2] = [8.0, 10.0];
-/// The lengths of links between cells by their size with a neutral colour, and with the strongest one: the solver
-/// removes those.
+/// The lengths of links between cells by their size with a neutral colour, and with the strongest one: the
+/// solver removes those.
 pub const LINK_LENGTHS: [f32; 2] = [0.45, 0.09];
-/// The cosines between links and edges with a neutral colour, and with the strongest one: the largest that the
-/// solver accepts.
+/// The cosines between links and edges with a neutral colour, and with the strongest one: the largest that
+/// the solver accepts.
 pub const LINK_COSINES: [f32; 2] = [0.0, 0.5];
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;

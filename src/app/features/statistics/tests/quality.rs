@@ -1,6 +1,7 @@
 //! How good the triangles are: the panel, and the ways from it.
 
 use eframe::egui::accesskit::Role;
+use eframe::egui::vec2;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::DVec2;
 
