@@ -15,7 +15,9 @@ use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use meshbrush_core::earth::{Coordinates, EdgeLengths, Ground};
 use meshbrush_core::explain::{Bisections, Explanation};
 use meshbrush_core::field::RefinementRule;
-use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField, SurfaceNorm};
+use meshbrush_core::layers::{
+    Combine, FormulaLayer, Layer, NODES_AT_A_TIME, PaintLayers, Quantity, RiskField, SurfaceNorm,
+};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::SurfaceFit;
 use meshbrush_io::io::{Cancelled, DocumentPlane, Meter};
@@ -238,6 +240,18 @@ impl FinishedMesh {
     /// Returns the layers of the size field, from the bottom to the top.
     pub fn layers(&self) -> &[Layer] {
         &self.built.field.spec().layers
+    }
+
+    /// Returns the smallest target diameter, in world units: that of the limits, or a layer below which
+    /// nothing gets finer.
+    pub fn smallest_diameter(&self) -> f64 {
+        let is_floor = |layer: &&Layer| layer.combine == Combine::Floor && layer.mask.is_none();
+        let diameter = |layer: &Layer| {
+            let floor: &FormulaLayer = layer.kind.get()?;
+            floor.formula.constant().filter(|_| floor.quantity == Quantity::Diameter)
+        };
+        let floors = self.layers().iter().filter(is_floor).filter_map(diameter);
+        floors.fold(self.spec().field.transfer.h_min, f64::max)
     }
 
     /// Returns the triangles whose diameter exceeds their target.

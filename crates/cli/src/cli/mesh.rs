@@ -246,8 +246,8 @@ fn note_straits(
 ) {
     let counted = details.and_then(|details| details.straits.clone());
     let counted = counted.or_else(|| StraitSummary::of(finished.layers(), extract, finished.domain()));
-    let h_min = finished.spec().field.transfer.h_min;
-    if let Some(sentence) = counted.and_then(|counted| counted.sentence(h_min)) {
+    let smallest = finished.smallest_diameter();
+    if let Some(sentence) = counted.and_then(|counted| counted.sentence(smallest)) {
         terminal.note(&sentence);
     }
 }

@@ -12,6 +12,8 @@
 //!   |  ╱     o     mesh has to stay conforming.
 //! ```
 
+use std::collections::HashSet;
+
 use glam::DVec2;
 
 use super::{BrokenRule, Solver, WrittenMesh, broken_rules};
@@ -24,11 +26,11 @@ use meshbrush_core::layers::{
     Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, ShapeList, Shapes, ShapesError,
 };
 use meshbrush_core::outline::DerivedMesh;
-use meshbrush_mesh::mesh::{Extract, TriangleId};
+use meshbrush_mesh::mesh::{Extract, Mesh, TriangleId};
 
 /// The most bisections of a triangle and its parts: what these do not mend, no more would. Between the sides
 /// of a sharp corner there is one triangle at every level.
-const MOST_BISECTIONS: usize = 4;
+const MOST_BISECTIONS: u32 = 4;
 /// The most meshes that are looked at.
 const MOST_MESHES: usize = 24;
 /// The diameter that is asked for, as a share of that of the triangle. Its halves have 0.707.
@@ -79,18 +81,18 @@ struct FinerTriangle {
     level: u32,
     /// The length that its target is compared with.
     diameter: f64,
-    /// The triangle that broke a rule first, and that this one is a part of: its corners.
-    first: [DVec2; 3],
-    /// How often that one was bisected to get this one.
-    depth: usize,
+    /// The triangle of the first mesh that it is a part of.
+    first: TriangleId,
 }
 
 /// The triangles to be bisected so far.
 #[derive(Debug, Default)]
 struct Finer {
+    /// The mesh before any repair, once there is one.
+    first_mesh: Option<Mesh>,
     triangles: Vec<FinerTriangle>,
-    /// Triangles in which bisections did not help.
-    given_up: Vec<[DVec2; 3]>,
+    /// Triangles of the first mesh in which bisections did not help.
+    given_up: HashSet<TriangleId>,
 }
 
 /// Returns layers with which a mesh keeps the rules of a solver, as far as smaller triangles help: those that
@@ -160,6 +162,7 @@ impl Finer {
         let mut ids: Vec<TriangleId> = found.filter_map(|&index| source(built, extract, index)).collect();
         ids.sort_unstable();
         ids.dedup();
+        self.first_mesh.get_or_insert_with(|| built.mesh.clone());
         let mut changed = false;
         for id in ids {
             changed |= self.add(built, id);
@@ -167,27 +170,27 @@ impl Finer {
         changed
     }
 
-    /// Adds a triangle, or gives up on those that it is a part of. Returns whether anything changed.
+    /// Adds a triangle, or gives up on the one of the first mesh that it is a part of. Returns whether
+    /// anything changed.
     fn add(&mut self, built: &BuiltMesh, id: TriangleId) -> bool {
-        let mesh = &built.mesh;
+        let (mesh, Some(first_mesh)) = (&built.mesh, &self.first_mesh) else { return false };
         let level = mesh.raw_triangles()[id.index()].level();
         let lattice_corners = mesh.corners(id);
         let corners = lattice_corners.map(|corner| mesh.lattice().world_from_lattice(corner));
         let place = corners.iter().sum::<DVec2>() / 3.0;
-        if self.given_up.iter().any(|first| contains(first, place)) {
+        let Some(first) = first_mesh.locate(place).triangle().filter(|first| !self.given_up.contains(first))
+        else {
             return false;
-        }
-        let parent =
-            self.triangles.iter().filter(|it| contains(&it.corners, place)).max_by_key(|it| it.level);
-        let (first, depth) = parent.map_or((corners, 1), |parent| (parent.first, parent.depth + 1));
-        let was_bisected = parent.is_none_or(|parent| parent.level < level);
-        if !was_bisected || depth > MOST_BISECTIONS {
+        };
+        let depth = level.saturating_sub(first_mesh.raw_triangles()[first.index()].level());
+        let was_asked = self.triangles.iter().any(|it| it.level >= level && contains(&it.corners, place));
+        if was_asked || depth >= MOST_BISECTIONS {
             self.triangles.retain(|triangle| triangle.first != first);
-            self.given_up.push(first);
+            self.given_up.insert(first);
             return true;
         }
         let diameter = built.field.edge_lengths().of(lattice_corners, level);
-        self.triangles.push(FinerTriangle { corners, level, diameter, first, depth });
+        self.triangles.push(FinerTriangle { corners, level, diameter, first });
         true
     }
 
