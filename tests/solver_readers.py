@@ -129,7 +129,7 @@ def check_selafin(path, expected, pieces):
         file.get_time()
         header, bottom = file.header, file.read_var_in_frame(0, "B")
         assert [name.decode().strip() for name in header.var_names] == ["BOTTOM", "BOTTOM FRICTION"], header.var_names
-        friction = file.read_var_in_frame(0, header.var_IDs[1])
+        friction = file.read_var_in_frame(0, header.var_ids[1])
     assert np.allclose(friction, expected.point_data["manning"], rtol=1e-12), "Manning's n"
     check_mesh(expected, header.x, header.y, header.ikle_2d_zero_based, -bottom)
     types = {piece["name"]: piece["type"] for piece in pieces}

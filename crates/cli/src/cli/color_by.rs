@@ -170,6 +170,6 @@ mod tests {
         assert!(
             refused.starts_with("“angle” is nothing that triangles can be coloured by; use levels, target, ")
         );
-        assert!(refused.ends_with("time_step or triangles_at_node."), "{refused}");
+        assert!(refused.ends_with("triangles_at_node, link_length or link_cosine."), "{refused}");
     }
 }
