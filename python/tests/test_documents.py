@@ -763,7 +763,7 @@ def test_rules_of_solvers_are_checked_and_repaired() -> None:
 
 
 def test_quantities_may_use_the_depth_and_grids(tmp_path: Path) -> None:
-    for name, value in (("depth.asc", "5"), ("cover.asc", "11")):
+    for name, value in (("depth.asc", "-5"), ("cover.asc", "11")):
         head = "ncols 4\nnrows 4\nxllcorner -1\nyllcorner -1\ncellsize 1\n"
         (tmp_path / name).write_text(head + 4 * (4 * f"{value} " + "\n"))
     (tmp_path / "n.csv").write_text("class,value\n11,0.02\n")
