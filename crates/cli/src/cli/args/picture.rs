@@ -37,8 +37,9 @@ pub struct PictureArguments {
     #[arg(long, value_name = "NAME", default_value = PICTURE_COLORMAP)]
     pub colormap: String,
 
-    /// What colours the triangles: levels, target (the level that h̄ asks for), smallest_angle,
-    /// largest_angle, edge_ratio, target_ratio, time_step or triangles_at_node [default: levels]
+    /// What colours the triangles: levels, target (the level that is asked for), smallest_angle,
+    /// largest_angle, edge_ratio, target_ratio, time_step, triangles_at_node, link_length or link_cosine
+    /// [default: levels]
     ///
     /// The legend of `--furniture legend` says what the colours mean. Time steps need depths.
     #[arg(long, value_name = "NAME", alias = "colour-by")]
