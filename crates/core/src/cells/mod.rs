@@ -123,7 +123,7 @@ impl MeshCells {
 
     /// Returns the links between the cells, in ascending order of the nodes of their edges.
     pub fn links(&self, mesh: CellNodes<'_>) -> Vec<CellLink> {
-        links::links_of(mesh, &self.cells, &links::edges_of(&self.cells))
+        self.links_with_cells(mesh).0
     }
 
     /// Returns the links of [`Self::links`], and the numbers of the two cells of each.

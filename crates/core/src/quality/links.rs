@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::QualityMeasure;
 use crate::cells::{CellLink, CellNodes, MeshCells};
 use crate::mesh::{MeshView, NodeId, TriangleId};
 use crate::text::LengthUnit;
@@ -32,22 +33,25 @@ impl MeasuredLinks {
         Self { links, triangles: sides.into_iter().map(both).collect() }
     }
 
-    /// Returns the worst link of the cell of each of so many triangles: the least share, or the largest
-    /// cosine of a link that the solver keeps; NaN without one.
-    pub(super) fn worst(&self, triangles: usize, by_length: bool) -> Vec<f64> {
+    /// Returns the worst number of the links of the cell of each of so many triangles; NaN without one.
+    pub(super) fn worst(&self, measure: QualityMeasure, triangles: usize) -> Vec<f64> {
         let mut worst = vec![f64::NAN; triangles];
         for (link, owners) in self.links.iter().zip(&self.triangles) {
-            let Some(number) = number_of(link, by_length) else { continue };
+            let Some(number) = number_of(link, measure) else { continue };
             for &triangle in owners {
                 let kept = &mut worst[triangle];
-                *kept = if by_length { kept.min(number) } else { kept.max(number) };
+                *kept = if measure.is_worse_when_smaller() { kept.min(number) } else { kept.max(number) };
             }
         }
         worst
     }
 }
 
-/// Returns the length of a link by the size of its cells, or the cosine of one that the solver keeps.
-pub(super) fn number_of(link: &CellLink, by_length: bool) -> Option<f64> {
-    if by_length { Some(link.share()) } else { (!link.is_short()).then_some(link.cosine) }
+/// Returns the number of a link by a measure of links. One that the solver removes has no cosine.
+pub(super) fn number_of(link: &CellLink, measure: QualityMeasure) -> Option<f64> {
+    match measure {
+        QualityMeasure::LinkLength => Some(link.share()),
+        QualityMeasure::LinkCosine => (!link.is_short()).then_some(link.cosine),
+        _ => None,
+    }
 }

@@ -145,8 +145,7 @@ impl<'a> TriangleMeasures<'a> {
     pub fn of_all(&self, measure: QualityMeasure) -> Option<Vec<f64>> {
         match measure {
             QualityMeasure::Valence => Some(self.most_at_corners().into_iter().map(f64::from).collect()),
-            QualityMeasure::LinkLength => Some(self.links()?.worst(self.mesh.triangles().len(), true)),
-            QualityMeasure::LinkCosine => Some(self.links()?.worst(self.mesh.triangles().len(), false)),
+            _ if measure.is_of_links() => Some(self.links()?.worst(measure, self.mesh.triangles().len())),
             _ => None,
         }
     }

@@ -212,13 +212,12 @@ fn links(measures: &TriangleMeasures<'_>) -> Vec<MeasureSummary> {
         let (inside, size) = middle_and_size(measures, triangles[link][0]);
         MeasuredPlace { value, at: a.midpoint(b), inside, size }
     };
-    let summary = |(measure, by_length): (QualityMeasure, bool)| {
+    let summary = |measure| {
         let mut tally = Tally::new(measure, f64::NAN);
-        links.iter().enumerate().for_each(|(number, link)| tally.note(number_of(link, by_length), number));
+        links.iter().enumerate().for_each(|(number, link)| tally.note(number_of(link, measure), number));
         tally.summary(place)
     };
-    let both = [(QualityMeasure::LinkLength, true), (QualityMeasure::LinkCosine, false)];
-    both.into_iter().filter_map(summary).collect()
+    QualityMeasure::ALL.into_iter().filter(|measure| measure.is_of_links()).filter_map(summary).collect()
 }
 
 /// Returns the middle of a triangle and its diameter in the plane.

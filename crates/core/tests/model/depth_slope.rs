@@ -2,26 +2,18 @@
 
 use fastrand::Rng;
 use glam::DVec2;
-use meshbrush_core::document::{Document, Follower, Settings, Stage};
-use meshbrush_core::field::{Formula, Transfer};
-use meshbrush_core::layers::{DepthSlope, Layer, LayerId, LayerKind};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::layers::DepthSlope;
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Extract;
 
+use crate::formula_mesh::formula_mesh;
 use crate::runs::seeds;
 
 fn with_mesh<T>(random: &mut Rng, read: impl FnOnce(&Extract) -> T) -> T {
-    let [x, y] = [random.f64(), random.f64()];
-    let formula = Formula::parse(&format!("0.02 + 0.3*hypot(x - {x}, y - {y})")).unwrap();
-    let settings = Settings {
-        layers: vec![Layer::new(LayerId(1), "formula", LayerKind::target(formula))],
-        transfer: Transfer::between(0.01, 0.3),
-        spacing: 0.25,
-        ..Settings::default()
-    };
-    let mut document = Document::new(settings, None).unwrap();
-    let mut follower = Follower::new(&mut document).unwrap();
-    while follower.advance(&mut document, 10_000).unwrap() != Stage::InStep {}
-    read(&follower.mesh().extract())
+    let formula = format!("0.02 + 0.3*hypot(x - {}, y - {})", random.f64(), random.f64());
+    let domain = Domain::rectangle(Rect::UNIT);
+    read(&formula_mesh(&domain, 0.25, BoundaryTreatment::Report, &formula).mesh.extract())
 }
 
 /// A shelf, a cliff, banks and noise; land here and there.

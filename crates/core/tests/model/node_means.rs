@@ -4,14 +4,13 @@ use std::collections::BTreeMap;
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush_core::document::{Document, Follower, Settings, Stage};
-use meshbrush_core::domain::Domain;
-use meshbrush_core::field::{Formula, Transfer};
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, NodeMeans};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::layers::NodeMeans;
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Extract;
 
+use crate::formula_mesh::formula_mesh;
 use crate::runs::seeds;
 
 /// The size of the domain. With its spacing all nodes are at binary fractions.
@@ -19,19 +18,9 @@ const SIZE: DVec2 = dvec2(1.0, 0.75);
 
 /// The nodes and triangles of a mesh that is refined around a random place.
 fn with_mesh<T>(random: &mut Rng, read: impl FnOnce(&Extract) -> T) -> T {
-    let [x, y] = [random.f64(), random.f64()];
-    let formula = Formula::parse(&format!("0.03 + 0.3*hypot(x - {x}, y - {y})")).unwrap();
-    let settings = Settings {
-        domain: Domain::rectangle(Rect::new(DVec2::ZERO, SIZE)),
-        layers: vec![Layer::new(LayerId(1), "formula", LayerKind::target(formula))],
-        transfer: Transfer::between(0.02, 0.3),
-        spacing: 0.25,
-        ..Settings::default()
-    };
-    let mut document = Document::new(settings, None).unwrap();
-    let mut follower = Follower::new(&mut document).unwrap();
-    while follower.advance(&mut document, 10_000).unwrap() != Stage::InStep {}
-    read(&follower.mesh().extract())
+    let formula = format!("0.03 + 0.3*hypot(x - {}, y - {})", random.f64(), random.f64());
+    let domain = Domain::rectangle(Rect::new(DVec2::ZERO, SIZE));
+    read(&formula_mesh(&domain, 0.25, BoundaryTreatment::Report, &formula).mesh.extract())
 }
 
 /// Classes 0 to 5, or none, over a part of the domain and more.

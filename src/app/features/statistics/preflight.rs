@@ -139,7 +139,7 @@ fn repair_row(ui: &mut Ui, broken: &[BrokenRule], commands: &mut Vec<Command>, s
         remark(ui, outcome);
         return;
     }
-    let helps = broken.iter().flat_map(|broken| &broken.found).any(|found| !found.mended_in.is_empty());
+    let helps = broken.iter().any(|broken| broken.rule.is_mended_by_size);
     if helps && ui.add(ActionButton::new("Repair").vanishing()).on_hover_text(REPAIR).clicked() {
         commands.push(Command::from(StatisticsCommand::Repair));
     }

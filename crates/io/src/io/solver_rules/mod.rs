@@ -70,6 +70,8 @@ pub struct SolverRule {
     pub severity: Severity,
     /// Whether it looks at the strings of the boundary, which one that touches itself does not have.
     pub needs_strings: bool,
+    /// Whether smaller triangles can mend a place that breaks it, [`BrokenPlace::mended_in`].
+    pub is_mended_by_size: bool,
     /// What a person can do.
     pub remedy: &'static str,
     /// Returns the places that break it, in the order of triangles, nodes or strings.
@@ -84,6 +86,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "the formats of all solvers",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "This is a mistake of the program: please report it, with the recipe.",
         find: nodes::clockwise_triangles,
     },
@@ -93,6 +96,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "the formats of all solvers",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "This is a mistake of the program, or places are too close for the coordinates of the file: write the \
                  plane (--out-crs plane).",
         find: nodes::repeated_nodes,
@@ -103,6 +107,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "the formats of all solvers",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "This is a mistake of the program: please report it, with the recipe.",
         find: nodes::lone_nodes,
     },
@@ -112,6 +117,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "the formats of all solvers: two boundary edges at each node of the boundary",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Have such nodes removed (without --keep-pinches), put nodes on the outline, or choose smaller triangles there.",
         find: boundary::touching,
     },
@@ -121,6 +127,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "ADCIRC gwce.F",
         severity: Severity::Violation,
         needs_strings: true,
+        is_mended_by_size: false,
         remedy: "Write the open pieces that meet as one string: the tide is added up over the list of open nodes.",
         find: boundary::open_nodes_twice,
     },
@@ -130,6 +137,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "ADCIRC, SCHISM: an open boundary has an edge",
         severity: Severity::Violation,
         needs_strings: true,
+        is_mended_by_size: true,
         remedy: "Choose smaller triangles there, or join the piece with its neighbour.",
         find: boundary::short_open_strings,
     },
@@ -139,6 +147,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "ASGS checkAdcircMesh",
         severity: Severity::Violation,
         needs_strings: true,
+        is_mended_by_size: true,
         remedy: "Choose smaller triangles there, or join the piece with its neighbour.",
         find: boundary::strings_of_two_nodes,
     },
@@ -148,6 +157,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "FVCOM, MIKE, TELEMAC: an edge is open if both its nodes are",
         severity: Severity::Violation,
         needs_strings: true,
+        is_mended_by_size: true,
         remedy: "Choose smaller triangles there, or join the piece with its neighbour.",
         find: boundary::lost_open_pieces,
     },
@@ -157,6 +167,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "FVCOM tge.F",
         severity: Severity::Violation,
         needs_strings: true,
+        is_mended_by_size: true,
         remedy: "Choose smaller triangles there, or move the end of the open piece: at corners, and where the frame runs \
                  along a coast, a triangle needs an inner node.",
         find: boundary::two_open_nodes_and_shore,
@@ -167,6 +178,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "TELEMAC-2D: overconstrained triangles",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: true,
         remedy: "Choose smaller triangles there: a triangle needs a node that is not on the boundary.",
         find: boundary::overconstrained,
     },
@@ -176,6 +188,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "runs of ADCIRC with advection and of FVCOM, which became unstable there",
         severity: Severity::Note,
         needs_strings: true,
+        is_mended_by_size: false,
         remedy: "Cut the strip off the domain, or choose smaller triangles there.",
         find: boundary::strips_along_frame,
     },
@@ -185,6 +198,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "SWAN SwanCheckGrid.ftn90",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Angles are those of the coordinates in the file: a mesh that was made in metres is written in them by \
                  --out-crs plane. Or choose smaller triangles there.",
         find: angles::obtuse,
@@ -195,6 +209,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "SWAN SwanCheckGrid.ftn90",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Choose smaller triangles there.",
         find: nodes::cells_at_nodes,
     },
@@ -204,6 +219,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "D-Flow FM flow_geominit.f90",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "No water crosses such a link: write squares (without --cells triangles), or choose smaller triangles there.",
         find: flow_links::short,
     },
@@ -213,6 +229,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "D-Flow FM flow_geominit.f90",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Choose smaller triangles there, or orthogonalize the mesh there in RGFGRID.",
         find: flow_links::skewed,
     },
@@ -222,6 +239,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "MeshKernel, D-Flow FM: a face has at most 6 edges",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: true,
         remedy: "Choose smaller triangles there, so that the island has at least 7 edges, or leave it out.",
         find: boundary::islands_like_cells,
     },
@@ -231,6 +249,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "MODFLOW 6 DisvGeom.f90: conductance is divided by the distances of both centres from the edge",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Write squares (without --cells triangles), or choose smaller triangles there.",
         find: flow_links::without_length,
     },
@@ -240,6 +259,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "MODFLOW 6, control volumes: a connection crosses its edge at a right angle",
         severity: Severity::Note,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Choose smaller triangles there, or have MODFLOW correct the flow (XT3D).",
         find: flow_links::oblique,
     },
@@ -249,6 +269,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "MODFLOW 6 DISV: the bottom of a cell is below its top, which is 0",
         severity: Severity::Violation,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Write a least depth (--least-depth 1), or the surface as the top (--surface).",
         find: nodes::cells_without_thickness,
     },
@@ -258,6 +279,7 @@ pub static RULES: [SolverRule; 20] = [
         source: "depths in the file: at 0 and less a node is dry",
         severity: Severity::Note,
         needs_strings: false,
+        is_mended_by_size: false,
         remedy: "Write a least depth (--least-depth 3), or leave it to the wetting and drying of the solver.",
         find: nodes::dry_nodes,
     },
@@ -298,6 +320,11 @@ pub fn rules_of(solver: Solver) -> impl Iterator<Item = &'static SolverRule> {
 
 /// Returns the rules of a solver that a mesh breaks, with the places.
 pub fn broken_rules(mesh: &WrittenMesh, solver: Solver) -> Vec<BrokenRule> {
-    let broken = rules_of(solver).map(|rule| BrokenRule { rule, found: (rule.find)(mesh) });
+    broken_among(rules_of(solver), mesh)
+}
+
+/// Returns those of some rules that a mesh breaks, with the places.
+fn broken_among(rules: impl Iterator<Item = &'static SolverRule>, mesh: &WrittenMesh) -> Vec<BrokenRule> {
+    let broken = rules.map(|rule| BrokenRule { rule, found: (rule.find)(mesh) });
     broken.filter(|broken| !broken.found.is_empty()).collect()
 }

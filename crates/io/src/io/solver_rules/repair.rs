@@ -16,7 +16,7 @@ use std::collections::HashSet;
 
 use glam::DVec2;
 
-use super::{BrokenRule, Solver, WrittenMesh, broken_rules};
+use super::{BrokenRule, Solver, WrittenMesh, broken_among, rules_of};
 use crate::io::{CellShape, JoinedCells, MeshData, Provenance};
 use meshbrush_core::build::{BuiltMesh, MeshSpec};
 use meshbrush_core::document::{Document, Setting, unused_name};
@@ -149,10 +149,8 @@ fn broken_in(extract: &Extract, spec: &MeshSpec, marks: &BoundaryMarks, solver: 
         parts_for: None,
         provenance: &Provenance::default(),
     };
-    let mut broken = broken_rules(&WrittenMesh::of(extract, &data, solver), solver);
-    broken.iter_mut().for_each(|broken| broken.found.retain(|found| !found.mended_in.is_empty()));
-    broken.retain(|broken| !broken.found.is_empty());
-    broken
+    let mended = rules_of(solver).filter(|rule| rule.is_mended_by_size);
+    broken_among(mended, &WrittenMesh::of(extract, &data, solver))
 }
 
 impl Finer {
