@@ -200,6 +200,12 @@ fn an_area_whose_rules_are_kept_is_not_repaired_and_the_vertex_rule_cannot_be() 
     assert!(repaired.err.contains("For ADCIRC no triangle was bisected once more."), "{}", repaired.err);
     let (_, answer) = check(&folder, &format!("{SQUARE} --repair"), "fvcom");
     assert_eq!((&answer["repaired"]["left"], answer["violations"].as_array().unwrap().len()), (&0.into(), 0));
+    // Whatever all sizes are multiplied by, one bisection at each corner is enough.
+    for scale in ["0.5", "3", "0.01"] {
+        let options = format!("{SQUARE} --scale {scale} --repair");
+        let (status, answer) = check(&folder, &options, "fvcom");
+        assert_eq!((status, &answer["repaired"]["bisected"]), (0, &2.into()), "{options}: {answer}");
+    }
     let ran = folder.run(format!("check {SQUARE} --rule vertex --for fvcom --repair").as_str());
     assert!(ran.status == 2 && ran.err.contains("--repair: by the vertex rule"), "{}", ran.err);
 }

@@ -79,7 +79,7 @@ impl Repaired {
 struct FinerTriangle {
     corners: [DVec2; 3],
     level: u32,
-    /// The length that its target is compared with.
+    /// The length that its target is compared with: its diameter by the scale of the targets.
     diameter: f64,
     /// The triangle of the first mesh that it is a part of.
     first: TriangleId,
@@ -231,7 +231,7 @@ impl Finer {
             let incentres = rest[..end].iter().map(|triangle| incentre(triangle.corners)).collect();
             rest = &rest[end..];
             // There is one place at least, and all are finite.
-            kinds.extend(asking_for(ASKED * least / scale, DISC * least, incentres).ok());
+            kinds.extend(asking_for(ASKED * least, DISC * least * scale, incentres).ok());
         }
         kinds
     }
