@@ -101,11 +101,11 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             }
             Some(Ok(broken)) => {
                 rules_row(ui, preflight.solver, broken);
+                repair_row(ui, broken, commands, state);
                 for broken in broken {
                     // Several rules have a first place.
                     ui.push_id(broken.rule.name, |ui| broken_rows(ui, broken, state, commands));
                 }
-                repair_row(ui, broken, commands, state);
             }
         }
     });
