@@ -10,7 +10,7 @@ use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_render::render::furniture::{LevelLegend, LevelRow};
 use meshbrush_ui::theme::{font, tokens};
 
-/// Width of the rows, in points: beside a square domain there is room for them.
+/// Least width of the rows, in points: beside a square domain there is room for them.
 const WIDTH: f32 = 134.0;
 /// Width of a swatch, in points.
 const SWATCH: f32 = 10.0;
@@ -33,14 +33,16 @@ pub fn show(
     let mesh = state.session.mesh();
     let LevelLegend { title, rows } = LevelLegend::new(counts, |level| mesh.diameter(level), state.unit());
     let height = ROW * rows.len() as f32;
-    let place = place_of(inner, vec2(WIDTH, height));
-    let has_room = WIDTH <= MOST[0] * inner.width()
+    let title_width = ui.painter().layout_no_wrap(title.clone(), font::caption(), Color32::WHITE).size().x;
+    let width = title_width.ceil().max(WIDTH);
+    let place = place_of(inner, vec2(width, height));
+    let has_room = width <= MOST[0] * inner.width()
         && TITLE + height <= MOST[1] * inner.height()
         && !uncovered.is_some_and(|mesh| mesh.intersects(place));
     if rows.is_empty() || state.session.awaits_mesh() || !has_room {
         return None;
     }
-    let within = boxed(ui, inner, vec2(WIDTH, height), &title, "Legend: levels of the mesh");
+    let within = boxed(ui, inner, vec2(width, height), &title, "Legend: levels of the mesh");
     let colors = state.view.level_colors(state.session.follower().settings());
     let mut hovered = None;
     for (row, LevelRow { level, texts }) in rows.into_iter().enumerate() {

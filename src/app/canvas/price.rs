@@ -115,6 +115,7 @@ fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
         (NoChange::CoarserThanGrid, _) => "h̄ is coarser than the grid here",
         (NoChange::LayerDecides(_), _) => "another layer decides here",
         (NoChange::NoLayer, _) => "no layer to paint on",
+        (NoChange::TrianglesFit, Medium::Error(_)) => "already this close here",
         (NoChange::TrianglesFit, _) if lowers => "finer triangles nearby need these",
         (NoChange::TrianglesFit, _) => "already finer here",
     }

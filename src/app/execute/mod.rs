@@ -13,10 +13,12 @@ use super::features::LAYER_KINDS;
 use super::help::{missing_pictures, stop_editing_keys};
 use super::panels::ask_for_menu;
 use super::{files as file_work, parts};
+use crate::app::canvas::overlay_of_picture;
+use crate::app::features::statistics::Statistics;
 use crate::app::features::stepping::Stepping;
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use meshbrush_kit::kit::notices::Offer;
-use meshbrush_kit::kit::{Ctx, EditRecorder, Features, Tool};
+use meshbrush_kit::kit::{Ctx, EditRecorder, Features, PictureOverlays, Tool};
 
 impl App {
     /// Runs one command.
@@ -58,6 +60,7 @@ impl App {
 
     /// Returns the features, and what they see.
     pub(super) fn features_in_context<'a>(&'a mut self, egui: &'a Context) -> (&'a mut Features, Ctx<'a>) {
+        let courant = self.features.get::<Statistics>().courant();
         let ctx = Ctx {
             session: &mut self.session,
             view: &mut self.view,
@@ -69,6 +72,7 @@ impl App {
             jobs: &self.jobs,
             commands: &mut self.commands,
             egui,
+            picture_overlay: PictureOverlays { maker: overlay_of_picture, courant },
             reproducible: self.reproducible,
         };
         (&mut self.features, ctx)

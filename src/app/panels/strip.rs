@@ -51,17 +51,18 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
                         (item.show)(ui, state, commands);
                     });
                 }
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    popup(ui, Icon::VISIBLE, "View options", KEEP_OPEN, |ui| view::rows(ui, state, commands));
-                    popup(ui, Icon::OVERLAY, "Overlays", CLOSE_AT_ONCE, |ui| {
-                        view::overlay_rows(ui, state, commands);
+                // Added from the left, which is the order in which they are read aloud.
+                let count = if others.is_empty() { 2.0 } else { 3.0 };
+                ui.add_space(ui.available_width() - count * metrics::ROW - (count - 1.0) * GAP);
+                if !others.is_empty() {
+                    popup(ui, Icon::TUNE, "More options", KEEP_OPEN, |ui| {
+                        others.iter().for_each(|item| (item.show)(ui, state, commands));
                     });
-                    if !others.is_empty() {
-                        popup(ui, Icon::TUNE, "More options", KEEP_OPEN, |ui| {
-                            others.iter().for_each(|item| (item.show)(ui, state, commands));
-                        });
-                    }
+                }
+                popup(ui, Icon::OVERLAY, "Overlays", CLOSE_AT_ONCE, |ui| {
+                    view::overlay_rows(ui, state, commands);
                 });
+                popup(ui, Icon::VISIBLE, "View options", KEEP_OPEN, |ui| view::rows(ui, state, commands));
             });
         });
 }

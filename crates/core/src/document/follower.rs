@@ -30,7 +30,7 @@ use super::{Document, Repainted, Settings, Stage};
 use crate::build::{BuildError, BuiltMesh, Parts};
 use crate::domain::DomainOnLattice;
 use crate::layers::{PaintLayers, SizeField};
-use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
+use crate::mesh::{Changes, Limits, Mesh, MeshCopy, Progress};
 use crate::surface::SurfaceRule;
 
 /// Keeps field and mesh in step with a document, in slices.
@@ -92,7 +92,7 @@ impl Follower {
         document.take_repainted();
         let spec = document.settings().mesh_spec()?;
         let mut first = Rebuild::new(document.settings(), spec, Parts::default());
-        while first.advance(document, usize::MAX)? == Progress::More {}
+        while first.advance(document.paint(), usize::MAX)? == Progress::More {}
         Ok(Self {
             shown: Shown::rebuilt(first, document.paint()),
             state: FollowState::InStep,
@@ -258,6 +258,11 @@ impl Follower {
         matches!(self.state, FollowState::GaveUp { revision, .. } if revision == document.revision())
     }
 
+    /// Returns the work that makes the shown mesh again, with other paint, within these limits.
+    pub(super) fn rebuild_within(&self, limits: Limits, spare: Option<Mesh>) -> Result<Rebuild, BuildError> {
+        self.shown.rebuild_within(&self.shown.settings, limits, spare)
+    }
+
     fn take_over_paint(&mut self, document: &mut Document) {
         match document.take_repainted() {
             Repainted::Within(areas) => {
@@ -383,7 +388,7 @@ impl Follower {
         budget: usize,
     ) -> Result<FollowState, BuildError> {
         let wanted = document.settings();
-        match rebuild.advance(document, budget) {
+        match rebuild.advance(document.paint(), budget) {
             Ok(Progress::More) => return Ok(FollowState::Rebuilding(rebuild)),
             Ok(Progress::Done) => {
                 let former = std::mem::replace(&mut self.shown, Shown::rebuilt(*rebuild, document.paint()));

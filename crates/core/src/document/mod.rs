@@ -23,6 +23,7 @@ mod pending;
 mod pricer;
 mod readings;
 mod rebuild;
+mod rebuild_price;
 mod recording;
 mod replay;
 mod setting;

@@ -2,24 +2,28 @@ use std::sync::{Arc, Weak};
 
 use super::pace::questions_per_thread;
 use super::pending::Pending;
+use super::rebuild_price::{RebuildPrice, price_between};
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
 use crate::layers::{LayerId, PaintChange, PaintLayers, SizeField};
-use crate::mesh::{Forecast, Progress};
-use crate::paint::{Preview, Repaint, StrokePlan};
+use crate::mesh::{Forecast, Mesh, Progress};
+use crate::paint::{Medium, Preview, Repaint, StrokePlan};
 
 /// Computes in slices how a planned stroke would change the number of triangles, without changing document or
 /// mesh.
 ///
-/// The stroke is painted on a copy of the paint, which shares all tiles that it does not touch. By the area
-/// rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
+/// The stroke is painted on a copy of the paint, which shares all tiles that it does not touch. Then the update
+/// is performed on sets of nodes; where every edit rebuilds the mesh (close to a surface, or under the vertex
+/// rule), another one is made and counted. The answer is exact.
 #[derive(Clone, Debug, Default)]
 pub struct Pricer {
     question: Option<StrokeQuestion>,
     work: PricerState,
     /// What the last price was counted in: its memory is used again.
     counted: Option<Forecast>,
+    /// The mesh that was made for the last price: its memory is used again.
+    spare: Option<Mesh>,
     answers: Answers,
 }
 
@@ -64,6 +68,8 @@ enum PricerState {
     Painting(Box<Preview>),
     /// The triangles are counted, `paint` being what would be painted.
     Counting(Box<StrokeCount>),
+    /// The mesh after the stroke is made.
+    Making(Box<RebuildPrice>),
     Known(Price),
 }
 
@@ -128,9 +134,7 @@ impl Pricer {
     ///
     /// There is a price only while the follower is in step with its document and no stroke is being painted.
     pub fn ask(&mut self, plan: Option<StrokePlan>, document: &Document, follower: &Follower) {
-        let answerable = document.stroke().is_none()
-            && document.settings().is_updated_in_place()
-            && follower.is_in_step(document);
+        let answerable = document.stroke().is_none() && follower.is_in_step(document);
         let Some(plan) = plan.filter(|plan| answerable && plan.is_finite()) else {
             (self.question, self.work) = (None, PricerState::Idle);
             return;
@@ -155,7 +159,7 @@ impl Pricer {
     pub fn progress(&self) -> Progress {
         match self.work {
             PricerState::Idle | PricerState::Known(_) => Progress::Done,
-            PricerState::Painting(_) | PricerState::Counting(_) => Progress::More,
+            PricerState::Painting(_) | PricerState::Counting(_) | PricerState::Making(_) => Progress::More,
         }
     }
 
@@ -166,6 +170,7 @@ impl Pricer {
         self.work = match std::mem::take(&mut self.work) {
             PricerState::Painting(preview) => self.paint_more(preview, question, document, follower, budget),
             PricerState::Counting(counting) => self.count_more(counting, question, follower, budget),
+            PricerState::Making(making) => self.make_more(making, question, follower, budget),
             settled @ (PricerState::Idle | PricerState::Known(_)) => settled,
         };
         self.progress()
@@ -195,6 +200,21 @@ impl Pricer {
         }
         let mut paint = document.paint().clone();
         paint.insert(question.layer, raster);
+        if !document.settings().is_updated_in_place() {
+            let making = RebuildPrice::new(paint, follower, self.spare.take());
+            return making.map_or(PricerState::Idle, |making| PricerState::Making(Box::new(making)));
+        }
+        self.count(question, paint, &changed, follower)
+    }
+
+    /// Begins to count the triangles after a stroke, `paint` being what would be painted.
+    fn count(
+        &mut self,
+        question: StrokeQuestion,
+        paint: PaintLayers,
+        changed: &[Repaint],
+        follower: &Follower,
+    ) -> PricerState {
         let (field, layer) = (follower.field(), question.layer);
         let painted: Vec<PaintChange> = changed
             .iter()
@@ -244,6 +264,26 @@ impl Pricer {
     }
 }
 
+impl Pricer {
+    fn make_more(
+        &mut self,
+        mut making: Box<RebuildPrice>,
+        question: StrokeQuestion,
+        follower: &Follower,
+        budget: usize,
+    ) -> PricerState {
+        match making.advance(budget) {
+            Err(price) => return PricerState::Known(price),
+            Ok(Progress::More) => return PricerState::Making(making),
+            Ok(Progress::Done) => {}
+        }
+        let (after, paint) = making.finish();
+        let price = price_between(follower.mesh(), &after, || why_nothing(question, &paint, follower));
+        self.spare = Some(after);
+        PricerState::Known(price)
+    }
+}
+
 fn begin(StrokeQuestion { plan, layer, .. }: StrokeQuestion, document: &Document) -> PricerState {
     let settings = document.settings();
     let (h_max, bounds) = (settings.transfer.h_max, settings.domain.bounds);
@@ -278,6 +318,9 @@ pub(super) fn price_of<E>(progress: Result<Progress, E>, forecast: &Forecast) ->
 
 /// Returns why a stroke that changes pixels changes no triangle, judged where it ends.
 fn why_nothing(question: StrokeQuestion, paint: &PaintLayers, follower: &Follower) -> NoChange {
+    if let Medium::Error(_) = question.plan.brush.medium {
+        return NoChange::TrianglesFit;
+    }
     let decision = follower.field().decision_at(paint, question.plan.to);
     if decision.target >= follower.field().longest() {
         return NoChange::CoarserThanGrid;

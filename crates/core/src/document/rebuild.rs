@@ -3,7 +3,7 @@
 use super::change::Change;
 use super::{Document, Settings, Stage};
 use crate::build::{BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, Parts};
-use crate::layers::PaintChange;
+use crate::layers::{PaintChange, PaintLayers};
 use crate::mesh::{Progress, TargetChange};
 
 /// Builds the mesh of a document, in slices.
@@ -57,8 +57,8 @@ impl Rebuild {
     }
 
     /// Returns one slice of work: about `budget` edges, pixels or triangles.
-    pub(super) fn advance(&mut self, document: &Document, budget: usize) -> Result<Progress, BuildError> {
-        self.builder.advance(Some(document.paint()), budget)
+    pub(super) fn advance(&mut self, paint: &PaintLayers, budget: usize) -> Result<Progress, BuildError> {
+        self.builder.advance(Some(paint), budget)
     }
 
     pub(super) fn stage(&self) -> Stage {

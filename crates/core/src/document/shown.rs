@@ -8,14 +8,14 @@ use super::pace::questions_per_thread;
 use super::pending::Pending;
 use super::rebuild::Rebuild;
 use super::{Document, Settings};
-use crate::build::{BuildError, BuiltMesh, MeshBuilder, Parts, RefinementCriterion};
+use crate::build::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts, RefinementCriterion};
 use crate::domain::{Domain, DomainOnLattice, DomainShape};
 use crate::field::{RefinementRule, Transfer};
 use crate::geometry::LatticePoint;
 use crate::layers::{PaintChange, PaintLayers, SizeField};
 use crate::mesh::{
-    ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule, TreeTriangle,
-    TriangleId, Updater,
+    ChangedArea, Changes, Limits, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule,
+    TreeTriangle, TriangleId, Updater,
 };
 use crate::surface::{SurfaceRule, SurfaceSamples};
 
@@ -249,7 +249,17 @@ impl Shown {
     /// Returns the work on another mesh, which reuses what the shown one has already, and the memory of
     /// `spare`.
     pub(super) fn rebuild(&self, wanted: &Settings, spare: Option<Mesh>) -> Result<Rebuild, BuildError> {
-        let spec = wanted.mesh_spec()?;
+        self.rebuild_within(wanted, wanted.limits(), spare)
+    }
+
+    /// [`Self::rebuild`] within other limits than those of the settings.
+    pub(super) fn rebuild_within(
+        &self,
+        wanted: &Settings,
+        limits: Limits,
+        spare: Option<Mesh>,
+    ) -> Result<Rebuild, BuildError> {
+        let spec = MeshSpec { limits, ..wanted.mesh_spec()? };
         let same_lattice = spec.lattice == *self.mesh.lattice();
         let same_domain = same_lattice && wanted.domain == self.settings.domain;
         let is_current =

@@ -497,7 +497,7 @@ fn there_is_no_price_where_there_can_be_none() {
     assert!(matches!(asked(dab, &document, &follower), Some(Price::Change(1..))));
     assert_eq!(asked(None, &document, &follower), None);
     assert_eq!(asked(Some(StrokePlan::click(brush, dvec2(f64::NAN, 0.5))), &document, &follower), None);
-    // Nor is there one before the mesh shows what was painted, while one paints, and by the vertex rule.
+    // Nor is there one before the mesh shows what was painted, and while one paints.
     document.begin_stroke(brush);
     document.draw_to(dvec2(0.2, 0.2));
     assert_eq!(asked(dab, &document, &follower), None);
@@ -509,9 +509,6 @@ fn there_is_no_price_where_there_can_be_none() {
     assert_eq!(asked(dab, &document, &follower), None);
     settle(&mut follower, &mut document);
     assert!(asked(dab, &document, &follower).is_some());
-    document.set(Setting::RefinementRule(RefinementRule::Vertex)).unwrap();
-    settle(&mut follower, &mut document);
-    assert_eq!(asked(dab, &document, &follower), None);
 }
 
 #[test]

@@ -45,6 +45,7 @@ mod quality;
 mod random_coast;
 mod random_costs;
 mod project_limits;
+mod remade_prices;
 mod replay;
 #[path = "../../../../tests/shared/runs.rs"]
 mod runs;

@@ -8,6 +8,7 @@ use super::LayerKinds;
 use crate::kit::background::Background;
 use crate::kit::command::{Command, FileCommand};
 use crate::kit::jobs::Jobs;
+use crate::kit::mesh_export::OverlayMaker;
 use crate::kit::project::ProjectFile;
 use crate::kit::session::Session;
 use crate::kit::tools::Tools;
@@ -20,6 +21,15 @@ pub const NO_LIMIT: Duration = Duration::from_secs(3600);
 pub trait EditRecorder {
     /// Keeps finished gestures.
     fn record(&mut self, session: &mut Session, project: &ProjectFile);
+}
+
+/// Knows the overlay that exported pictures show in place of levels.
+#[derive(Clone, Copy)]
+pub struct PictureOverlays {
+    /// Returns what makes the overlay, with time steps of a Courant number; `None` where pictures show levels.
+    pub maker: fn(&Session, &View, f64) -> Option<OverlayMaker>,
+    /// The Courant number of the person.
+    pub courant: f64,
 }
 
 /// The data that a feature may read and change while it runs a command, besides its own state.
@@ -44,6 +54,8 @@ pub struct Ctx<'a> {
     pub commands: &'a mut Vec<Command>,
     /// The clipboard and the frame.
     pub egui: &'a Context,
+    /// The overlay of exported pictures.
+    pub picture_overlay: PictureOverlays,
     /// Whether to leave out what differs from run to run.
     pub reproducible: bool,
 }
@@ -52,6 +64,11 @@ impl Ctx<'_> {
     /// Sends a command, to be run after this one.
     pub fn send(&mut self, command: Command) {
         self.commands.push(command);
+    }
+
+    /// Returns what makes the overlay of exported pictures, if they show one.
+    pub fn picture_overlay(&self) -> Option<OverlayMaker> {
+        (self.picture_overlay.maker)(self.session, self.view, self.picture_overlay.courant)
     }
 
     /// Hands finished gestures to the journal.

@@ -76,7 +76,7 @@ mod shortcut;
 mod tool;
 
 pub use area::area_text;
-pub use ctx::{Ctx, EditRecorder, NO_LIMIT};
+pub use ctx::{Ctx, EditRecorder, NO_LIMIT, PictureOverlays};
 pub use data_file::{DataContents, DataFile, Preview, RasterFacts, look_at, seen_shapes};
 pub use data_role::DataRole;
 pub use dragged_shape::{DraggedShape, press_shape};

@@ -101,8 +101,9 @@ impl Paths {
     }
 
     fn export_path(&mut self, path: &Path, ctx: &mut Ctx<'_>) {
+        let overlay = ctx.picture_overlay();
         let (view, of_paths) = (&*ctx.view, (&self.finder, &self.tool));
-        let started = export::export(ctx.session, view, of_paths, ctx.background, path);
+        let started = export::export(ctx.session, (view, overlay), of_paths, ctx.background, path);
         if let Err(problem) = started {
             ctx.fail(with_keys(ctx.egui, &problem).into_owned());
         }

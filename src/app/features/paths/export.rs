@@ -9,20 +9,22 @@ use meshbrush_core::path::Solution;
 use meshbrush_io::io::{self, MeshSource, Provenance};
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, not_exported};
 use meshbrush_kit::kit::derivation::Derived;
+use meshbrush_kit::kit::mesh_export::OverlayMaker;
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::view::View;
+use meshbrush_render::render::look::Look;
 use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
 use meshbrush_ui::widgets::format;
 
 /// Writes the path of the panel: as GeoJSON, as a table, as a route on the Earth, or as a picture over the
-/// mesh, as the ending says.
+/// mesh in the colours of an overlay or of levels, as the ending says.
 ///
 /// # Errors
 /// Fails with a sentence when the path is not that of the document as it is, or when it is clear at once that
 /// nothing can be written there.
 pub fn export(
     session: &Session,
-    view: &View,
+    (view, overlay): (&View, Option<OverlayMaker>),
     (paths, tool): (&PathFinder, &PathTool),
     background: &mut Background,
     path: &Path,
@@ -52,6 +54,9 @@ pub fn export(
             let extract = whole.as_ref().or(derived.as_deref()).expect("one of the two");
             let source = MeshSource::Document(&settings.name);
             let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
+            let overlay = overlay.as_ref().filter(|_| matches!(format, PathFormat::Picture(_)));
+            let look = Look { overlay: overlay.and_then(|make| make(extract, meter)), ..look.clone() };
+            meter.check()?;
             let over = MeshOfPath { mesh: &mesh, extract, look: &look };
             export.write(&file, format, &over, &provenance, meter)?;
             Ok(export.samples().len())

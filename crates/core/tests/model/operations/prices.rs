@@ -14,6 +14,7 @@ fn plan(number: usize) -> StrokePlan {
         Medium::Eraser,
         diameter(DiameterChange::Any),
         diameter(DiameterChange::Coarser),
+        Medium::Error(1e-3),
     ];
     let share = |step: f64| (number as f64 * step).fract();
     let radius = 0.01 + 0.08 * share(0.367);

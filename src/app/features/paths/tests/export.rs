@@ -19,7 +19,8 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::path::{Solution, Weights};
-use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand};
+use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
+use meshbrush_kit::kit::view::FieldOverlay;
 use meshbrush_mesh::text::LengthUnit;
 
 fn solution(window: &Window) -> Solution {
@@ -66,6 +67,17 @@ fn each_format_is_written() {
     let drawing = text(exported(&mut window, &folder.join("a.svg")));
     assert!(drawing.starts_with("<svg ") && drawing.contains("<polyline"));
     assert_eq!(&exported(&mut window, &folder.join("a.png"))[1..4], b"PNG");
+}
+
+#[test]
+fn a_picture_has_the_colours_of_the_overlay_on_the_canvas() {
+    let (mut window, folder) = (window_with_path(), folder("app-path-export", "overlay"));
+    let of_levels = text(exported(&mut window, &folder.join("levels.svg")));
+    assert!(of_levels.contains("<title>Level, diameter, count</title>"));
+    send(&mut window, Command::from(ViewCommand::SetOverlay(FieldOverlay::SmallestAngle)));
+    let of_angles = text(exported(&mut window, &folder.join("angles.svg")));
+    assert!(of_angles.contains("<title>Smallest angle</title>"), "its legend is there");
+    assert!(of_angles.contains("<polyline") && !of_angles.contains("<title>Level, diameter"));
 }
 
 #[test]
