@@ -86,8 +86,8 @@ pub struct MeshArguments {
     /// Divide the mesh into so many parts for a solver on several processors, beside each file: to
     /// partition.prop for .gr3 and .ll, and sea.14.part.64 for -o sea.14
     ///
-    /// Parts follow the curve of the bisection tree, so that each is in one place, and have the same number
-    /// of cells, or one more. .nc has them as `idomain`, too.
+    /// Parts are halved again and again across their longer side, with few edges between two parts, and have
+    /// the same number of cells, or one more. .nc has them as `idomain`, too.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Output")]
     pub parts_for: Option<u32>,
 

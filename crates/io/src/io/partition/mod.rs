@@ -1,8 +1,7 @@
 //! Parts of a mesh for a solver that runs on several processors.
 //!
-//! Parts are pieces of the curve of the bisection tree ([`Extract::curve_positions`]): cells in the order of
-//! the curve, divided evenly, so that no part has more than one cell more than another. Files keep their
-//! numbers of cells.
+//! The cells are divided in two again and again, so that no part has more than one cell more than another and
+//! few edges are cut ([`halves`]). Files keep their numbers of cells.
 //!
 //! SCHISM reads `partition.prop`: a line for each element, with its number and that of its processor, from 0.
 //! For other formats there is a file in the style of METIS, named for the mesh and the number of parts, as in
@@ -11,9 +10,15 @@
 
 use std::io::{self, Write};
 
+mod cell_graph;
+mod exchange;
+mod halves;
+
 use super::format_spec::SquareCells;
 use super::written_cells::WrittenCells;
 use super::{MeshData, write_rows};
+use cell_graph::CellGraph;
+use halves::divided;
 use meshbrush_mesh::mesh::Extract;
 
 /// The lines of a file of parts.
@@ -47,16 +52,10 @@ pub(super) struct Partition {
 impl Partition {
     /// Divides the cells of a file into so many parts.
     pub(super) fn new(mesh: &Extract, cells: &WrittenCells<'_>, parts: u32) -> Self {
-        let positions = mesh.curve_positions();
-        let position = |cell: usize| {
-            let [first, second] = cells.triangles(cell).map(|triangle| positions[triangle]);
-            first.min(second)
-        };
-        let mut order: Vec<(u64, usize)> = (0..cells.count()).map(|cell| (position(cell), cell)).collect();
-        order.sort_unstable();
+        let (graph, numbers) = CellGraph::of_file(mesh, cells);
         let mut owners = vec![0; cells.count()];
-        for (place, &(_, cell)) in order.iter().enumerate() {
-            owners[cell] = (place as u64 * u64::from(parts) / order.len() as u64) as u32;
+        for (part, &cell) in divided(&graph, parts).into_iter().zip(&numbers) {
+            owners[cell as usize] = part;
         }
         Self { owners, parts }
     }
