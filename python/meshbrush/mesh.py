@@ -177,15 +177,17 @@ class Mesh:
         values: Mapping[str, npt.ArrayLike] | None = None,
         quantities: list[str] | None = None,
         grids: list[dict[str, str]] | None = None,
+        least_depth: float | None = None,
+        depth_slope: float | None = None,
     ) -> dict[str, Any]:
         """Says where the mesh, as a file of a solver has it, breaks the rules of that solver.
 
         `solver` is adcirc, schism, swan, telemac, fvcom, ww3, delft3dfm, mike or modflow. The answer is that of `meshbrush
         check --json`: `violations` and `notes` are lists with `rule`, `place` in the coordinates of the file, `source` and
-        `sentence`. `crs`, `cells` ("triangles" or "squares"), and the `depth` of `values`, `quantities` and `grids`, are as
-        for `write`.
+        `sentence`. `crs`, `cells`, `least_depth`, `depth_slope`, and the `depth` of `values`, `quantities` and `grids`, are
+        as for `write`.
         """
-        output = {"file": "", "quantities": list(quantities or []), "grids": _grids(grids)}
+        output = {"file": ""} | _node_data(quantities, grids, least_depth, depth_slope)
         answer, notes = self._core.check(output, solver, crs, cells, _named(values))
         for note in notes:
             warnings.warn(note, MeshbrushWarning, stacklevel=2)
@@ -226,14 +228,21 @@ class Mesh:
         values: Mapping[str, npt.ArrayLike] | None = None,
         quantities: list[str] | None = None,
         grids: list[dict[str, str]] | None = None,
+        least_depth: float | None = None,
+        depth_slope: float | None = None,
         format: str | None = None,  # noqa: A002
         binary: bool = False,
         flat: bool = False,
+        cells: str | None = None,
         crs: str | None = None,
         size: str | tuple[int, int] | None = None,
+        dpi: float | None = None,
         edges: bool | None = None,
         colormap: str | None = None,
+        color_by: str | None = None,
         light: bool | None = None,
+        ground: str | None = None,
+        furniture: str | None = None,
         view: str | None = None,
         azimuth: float | None = None,
         altitude: float | None = None,
@@ -245,14 +254,21 @@ class Mesh:
         `values` are numbers at the nodes by their names, and `quantities` formulas, as in "depth = 20 - x"; solvers read
         `depth`. In a formula `depth` is that of layers of depths, as in "depth = max(depth, 3)". `grids` are means of pixels
         over the cells of nodes, as in {"name": "manning", "file": "landcover.tif", "table": "classes.csv"}; a grid of values
-        has no table of classes. `format` names one that the ending does not. `crs` is "plane", "lonlat" or "EPSG:…" for a
-        mesh in the plane of a projection. With a surface the third coordinate of a node is its height, in formats that have
-        one, and 0 where `flat`. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg. With `view="space"`
-        a .png shows the mesh as a surface, with the heights of layers of surfaces or else of depths; see `picture`.
+        has no table of classes. Nodes that are less deep than `least_depth`, in metres, are written with it, and depths are
+        smoothed until no edge has an r-factor above `depth_slope`, as in 0.2. `format` names one that the ending does not.
+        `cells` is "triangles" or "squares". `crs` is "plane", "lonlat" or "EPSG:…" for a mesh in the plane of a projection.
+        With a surface the third coordinate of a node is its height, in formats that have one, and 0 where `flat`.
+
+        For pictures, .png and .svg, are `size` in pixels, or as in "160mm" with `dpi`; `edges`; `colormap`; `color_by`, which
+        colours the triangles by "target", "smallest_angle" or another overlay; `light`, or `ground` ("dark", "light",
+        "white" or "transparent"); and `furniture`, as in "legend,axes" or "all". With `view="space"` a .png shows the mesh as a
+        surface, with the heights of layers of surfaces or else of depths; see `picture`.
         """
-        space = _space(view, azimuth, altitude, exaggeration)
-        output = _look(as_path(path) or path, size, edges, colormap, light) | space
-        output.update(binary=bool(binary), flat=bool(flat), quantities=list(quantities or []), grids=_grids(grids))
+        output = _look(as_path(path) or path, size, edges, colormap, light)
+        output |= {"dpi": dpi, "color_by": color_by, "ground": ground, "furniture": furniture}
+        output |= _space(view, azimuth, altitude, exaggeration)
+        output |= _node_data(quantities, grids, least_depth, depth_slope)
+        output.update(binary=bool(binary), flat=bool(flat), cells=cells)
         with watching(progress) as watch:
             files, notes = self._core.write(output, format, crs, _named(values), watch)
         for note in notes:
@@ -265,7 +281,10 @@ class Mesh:
         size: str | tuple[int, int] | None = None,
         edges: bool | None = None,
         colormap: str | None = None,
+        color_by: str | None = None,
         light: bool | None = None,
+        ground: str | None = None,
+        furniture: str | None = None,
         view: str | None = None,
         azimuth: float | None = None,
         altitude: float | None = None,
@@ -273,12 +292,14 @@ class Mesh:
     ) -> npt.NDArray[np.uint8]:
         """Returns a picture with shape (height, width, 4): red, green, blue and alpha. It needs no other library.
 
+        `color_by`, `ground` and `furniture` are as for `write`.
         With `view="space"` it shows the mesh as a surface. `azimuth` is the direction in which one looks, in degrees clockwise
         from the y axis, `altitude` how high the viewer stands above the horizon, 5 to 90 degrees, and `exaggeration` the
         factor for heights; without it relief has an eighth of the longer side of the domain.
         """
-        space = _space(view, azimuth, altitude, exaggeration)
-        return self._core.picture(_look("picture.png", size, edges, colormap, light) | space)
+        look = _look("picture.png", size, edges, colormap, light)
+        look |= {"color_by": color_by, "ground": ground, "furniture": furniture}
+        return self._core.picture(look | _space(view, azimuth, altitude, exaggeration))
 
     def _repr_png_(self) -> bytes:
         return self._core.png(_look("picture.png", (800, 600), self._core.counts[1] < 20_000, None, True))
@@ -365,6 +386,20 @@ def _look(
     elif isinstance(size, int):
         size = str(size)
     return {"file": file, "size": size, "edges": edges, "colormap": colormap, "light": light}
+
+
+def _node_data(
+    quantities: list[str] | None,
+    grids: list[dict[str, str]] | None,
+    least_depth: float | None,
+    depth_slope: float | None,
+) -> dict[str, Any]:
+    return {
+        "quantities": list(quantities or []),
+        "grids": _grids(grids),
+        "least_depth": least_depth,
+        "depth_slope": depth_slope,
+    }
 
 
 def _grids(grids: list[dict[str, str]] | None) -> list[dict[str, Any]]:

@@ -5,7 +5,7 @@ use meshbrush_cli::cli::details::provenance_from;
 use meshbrush_cli::cli::exported_mesh::ExportedMesh;
 use meshbrush_cli::cli::failure::Failure;
 use meshbrush_cli::cli::output_coordinates::OutputCoordinates;
-use meshbrush_cli::cli::requested_files::quantities_of;
+use meshbrush_cli::cli::output_keys::{depth_changes_of, quantities_of};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::solver_rules::{Solver, repaired};
@@ -14,7 +14,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::document::{Document, built, lock, origin_of};
+use crate::document::{Document, NO_PLANE, built, lock, origin_of};
 use crate::errors::{fault_in, mesh_error};
 use crate::mesh::{Mesh, values_at_nodes};
 use crate::values::text_value;
@@ -41,9 +41,13 @@ impl Mesh {
             Some(text) => text.parse().map_err(|error| mesh_error(format!("crs: {error}")))?,
             None => OutputCoordinates::from(shared.finished.coordinates()),
         };
+        if crs.is_some_and(|text| text != "plane") && shared.finished.domain().projection.is_none() {
+            return Err(mesh_error(NO_PLANE));
+        }
         let table = text_value(output)?;
-        let quantities = SavedOutput::of_value(&table).and_then(|saved| quantities_of(&saved));
-        let quantities = quantities.map_err(|fault| fault_in(&table, &fault))?;
+        let keys = SavedOutput::of_value(&table)
+            .and_then(|saved| Ok((quantities_of(&saved)?, depth_changes_of(&saved)?)));
+        let (quantities, depth_changes) = keys.map_err(|fault| fault_in(&table, &fault))?;
         let values = values_at_nodes(values, shared.counts()[0])?;
         let answer = run(slf.py(), &Watching::QUIET, move |_| {
             let details = shared.details().map_err(|problem| Failure::Work(problem.to_owned()))?;
@@ -60,7 +64,8 @@ impl Mesh {
                     target_diameter: &[],
                 };
                 let mut notes = Vec::new();
-                let values = &exported.values_at_nodes(&quantities, values, &mut notes)?;
+                let (values, _) = exported.values_at_nodes(&quantities, values, depth_changes, &mut notes)?;
+                let values = &values;
                 let answer = FileToCheck { exported, values, cells, solver }.as_json()?;
                 Ok((answer, notes))
             })

@@ -760,6 +760,9 @@ def test_rules_of_solvers_are_checked_and_repaired() -> None:
     assert document.mesh().fingerprint == before
     with pytest.raises(mb.MeshError, match="is no solver whose rules are known"):
         mesh.check("roms")
+    with pytest.raises(mb.MeshError) as refused:
+        mesh.check("fvcom", crs="EPSG:32630")
+    assert "--out-crs" not in str(refused.value)
 
 
 def test_quantities_may_use_the_depth_and_grids(tmp_path: Path) -> None:
@@ -780,3 +783,29 @@ def test_quantities_may_use_the_depth_and_grids(tmp_path: Path) -> None:
     assert dry == [[0], [len(mesh.nodes)]]
     with pytest.raises(mb.MeshError, match="there is no such file"):
         mesh.check("adcirc", grids=[{"name": "depth", "file": tmp_path / "none.asc"}])
+
+
+def test_depths_in_files_have_a_least_depth_and_a_slope(tmp_path: Path) -> None:
+    mesh = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.25).mesh()
+    depth = 10 * mesh.nodes[:, 0] - 1
+
+    def written(**options: Any) -> list[float]:
+        mesh.write(tmp_path / "a.14", **options)
+        rows = (tmp_path / "a.14").read_text().splitlines()[2 : 2 + len(mesh.nodes)]
+        return [float(row.split()[3]) for row in rows]
+
+    assert written(values={"depth": depth}) == pytest.approx(depth)
+    assert written(values={"depth": depth}, least_depth=2) == pytest.approx(np.maximum(depth, 2))
+    assert written(quantities=["depth = 10*x - 1"], least_depth=2) == pytest.approx(np.maximum(depth, 2))
+    smooth = written(values={"depth": depth}, least_depth=1, depth_slope=0.05)
+    assert min(smooth) >= 1
+    assert smooth != pytest.approx(np.maximum(depth, 1))
+    dry = [mesh.check("adcirc", values={"depth": depth}, least_depth=least) for least in (None, 2)]
+    assert [len(answer["notes"]) > 0 for answer in dry] == [True, False]
+    with pytest.raises(mb.MeshError, match="an r-factor is a number between 0 and 1"):
+        mesh.write(tmp_path / "a.14", depth_slope=2)
+    with pytest.warns(mb.MeshbrushWarning, match="has no depths"):
+        mesh.write(tmp_path / "a.vtu", least_depth=2)
+    mesh.write(tmp_path / "a.png", size=100, color_by="smallest_angle", ground="white")
+    plain = mesh.picture(size=100, ground="white")
+    assert not np.array_equal(mesh.picture(size=100, ground="white", color_by="smallest_angle"), plain)

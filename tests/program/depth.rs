@@ -685,3 +685,48 @@ fn the_largest_time_step_is_known_for_a_depth_that_is_given() {
     let text = folder.run(format!("mesh {options}").as_str()).err;
     assert!(text.contains("largest time step ") && text.contains(" s across triangles, at "), "{text}");
 }
+
+#[test]
+fn each_output_of_a_recipe_has_its_own_least_depth_and_slope() {
+    let folder = Folder::new("depth-of-outputs");
+    let depth = "quantities = [\"depth = 10*x - 1\"]";
+    let output = |file: &str, keys: &str| format!("[[output]]\nfile = \"{file}\"\n{keys}\n");
+    let outputs = [
+        output("as_it_is.14", depth),
+        output("deeper.14", &format!("{depth}\nleast_depth = 2")),
+        output("smooth.14", &format!("{depth}\nleast_depth = 1\ndepth_slope = 0.05")),
+        output("idle.vtu", "least_depth = 2"),
+    ];
+    let mesh = "[mesh]\nspacing = 0.25\n";
+    folder.file("sea.toml", format!("{mesh}{}", outputs.concat()));
+    let ran = folder.run("mesh sea.toml");
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    assert!(ran.err.contains("idle.vtu has no depths, so its least_depth"), "{}", ran.err);
+    let depths = |file: &str| -> Vec<f64> {
+        let text = folder.read(file);
+        let count: Vec<usize> =
+            text.lines().nth(1).unwrap().split_whitespace().map(|word| word.parse().unwrap()).collect();
+        let rows = text.lines().skip(2).take(count[1]);
+        rows.map(|row| row.split_whitespace().nth(3).unwrap().parse().unwrap()).collect()
+    };
+    let plain = depths("as_it_is.14");
+    assert!(plain.contains(&-1.0) && !folder.read("as_it_is.14").contains("least depth"));
+    let raised: Vec<f64> = plain.iter().map(|depth| depth.max(2.0)).collect();
+    assert_eq!(depths("deeper.14"), raised);
+    assert!(folder.read("deeper.14").lines().next().unwrap().contains("; least depth: 2 m"));
+    let smooth = depths("smooth.14");
+    assert!(smooth.iter().all(|&depth| depth >= 1.0) && smooth != raised);
+    assert!(folder.read("smooth.14").lines().next().unwrap().contains("; depth slope: r-factor of edges"));
+    // Options count before the keys.
+    assert_eq!(folder.run("mesh sea.toml --least-depth 4").status, 0);
+    assert!(depths("deeper.14").iter().chain(&depths("as_it_is.14")).all(|&depth| depth >= 4.0));
+    for (file, key, sentence) in [
+        ("a.14", "depth_slope = 1.5", "an r-factor is a number between 0 and 1"),
+        ("a.14", "least_depth = inf", "a depth is a number of metres"),
+        ("a.png", "least_depth = 1", "holds no values at the nodes"),
+    ] {
+        folder.file("bad.toml", format!("{mesh}{}", output(file, key)));
+        let ran = folder.run("mesh bad.toml");
+        assert!(ran.status != 0 && ran.err.contains(sentence), "{file}, {key}: {}", ran.err);
+    }
+}

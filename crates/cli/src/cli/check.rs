@@ -18,7 +18,7 @@ use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
 };
-use meshbrush_io::io::{CellShape, MeshData, NodeValues};
+use meshbrush_io::io::{CellShape, JoinedCells, MeshData, NodeValues};
 use meshbrush_mesh::text::{Grouped, Number};
 
 /// How many places of a rule are printed one by one; JSON has all.
@@ -56,7 +56,7 @@ pub fn run(
         target_diameter: &[],
     };
     let mut notes = details.quantity_notes.clone();
-    let values = exported.values_at_nodes(&quantities, Vec::new(), &mut notes)?;
+    let (values, _) = exported.values_at_nodes(&quantities, Vec::new(), uses.depth_changes, &mut notes)?;
     notes.iter().for_each(|note| terminal.note(note));
     let cells = typed.cells.unwrap_or_default();
     let file = FileToCheck { exported, values: &values, cells, solver: typed.solver };
@@ -102,7 +102,9 @@ impl<'a> FileToCheck<'a> {
     /// Returns the mesh as the file has it, and the rules that it breaks.
     fn broken(&self) -> Result<(WrittenMesh, Vec<BrokenRule>), Failure> {
         let placed = self.exported.in_coordinates()?;
-        let data = MeshData { cells: self.cells, ..self.exported.data(self.values, false) };
+        // Those of the details can be in other coordinates.
+        let joined = &JoinedCells::default();
+        let data = MeshData { cells: self.cells, joined, ..self.exported.data(self.values, false) };
         let written = WrittenMesh::of(placed.as_ref().unwrap_or(self.exported.extract), &data, self.solver);
         let broken = broken_rules(&written, self.solver);
         Ok((written, broken))

@@ -59,6 +59,11 @@ impl DepthChanges {
         *self == Self::default()
     }
 
+    /// Returns these changes, and for what they leave open those of another.
+    pub fn or(self, other: Self) -> Self {
+        Self { least: self.least.or(other.least), slope: self.slope.or(other.slope) }
+    }
+
     /// Changes depths: first those below the least one are raised, and then all are smoothed, which leaves
     /// none below it.
     pub fn apply(&self, mesh: &Extract, depths: &mut [f64]) -> ChangedDepths {
@@ -69,6 +74,11 @@ impl DepthChanges {
 }
 
 impl ChangedDepths {
+    /// Returns whether a least depth and whether a largest r-factor was kept.
+    pub fn kinds(&self) -> (bool, bool) {
+        (self.least.is_some(), self.slope.is_some())
+    }
+
     /// Returns the origin of a mesh with a line for each change.
     pub fn said_in(&self, provenance: Provenance) -> Provenance {
         let provenance = match self.least {

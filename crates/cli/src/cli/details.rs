@@ -25,7 +25,7 @@ pub struct MeshDetails {
     pub parts: Vec<u32>,
     /// The cells with pairs of triangles joined, in the coordinates of files, once a file has them.
     pub joined: JoinedCells,
-    /// The origin of the mesh.
+    /// The origin of the mesh. What was changed of the depths of a file is added to it there.
     pub provenance: Provenance,
     /// The depths at the nodes as files get them, if a layer has them and they are wanted.
     pub depths: Option<NodeDepths>,
@@ -113,7 +113,6 @@ impl MeshDetails {
         let of_layers = depths.as_mut().map(|depths| change(&mut depths.depths));
         let of_quantity = given.as_mut().map(|(_, values)| change(values));
         let changed_depths = of_quantity.or(of_layers).unwrap_or_default();
-        let provenance = changed_depths.said_in(provenance);
         let courant = depths.as_ref().and_then(|depths| {
             let ground = finished.ground();
             CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
@@ -151,6 +150,11 @@ impl MeshDetails {
     pub fn depths_of_layers(&self) -> Option<&[f64]> {
         let written = self.depths.as_ref().map(|depths| &*depths.depths);
         self.unchanged_depths.as_deref().or(written)
+    }
+
+    /// Returns the depths of layers at the nodes as files get them, if no quantity counts in their place.
+    pub fn written_depths(&self) -> Option<&[f64]> {
+        self.depths.as_ref().filter(|_| self.given.is_none()).map(|depths| &*depths.depths)
     }
 
     /// Returns the depths that a quantity gives, as files get them, if it is the one that counts for the

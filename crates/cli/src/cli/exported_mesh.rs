@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::build::FinishedMesh;
+use super::depths::{ChangedDepths, DepthChanges};
 use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::Output;
@@ -72,7 +73,8 @@ impl ExportedMesh<'_> {
     }
 
     /// Returns the values at the nodes: those given, the quantities, and the depths and surfaces of layers,
-    /// unless one of them is called so. What a person should know about quantities is added to `notes`.
+    /// unless one of them is called so; and what was changed of the depths. What a person should know about
+    /// quantities is added to `notes`.
     ///
     /// # Errors
     /// Fails when a quantity has no value at a node.
@@ -80,29 +82,39 @@ impl ExportedMesh<'_> {
         &self,
         quantities: &[NamedQuantity],
         mut values: Vec<NodeValues>,
+        changes: DepthChanges,
         notes: &mut Vec<String>,
-    ) -> Result<Vec<NodeValues>, Failure> {
+    ) -> Result<(Vec<NodeValues>, ChangedDepths), Failure> {
         let details = self.details;
+        let is_known = changes == details.depth_changes;
+        let mut depths_are_changed = false;
         for quantity in quantities {
-            if let Some(depths) = details.given_depths(quantity) {
-                values.push(NodeValues { name: DEPTH.into(), values: depths.to_vec() });
-                continue;
-            }
-            let of_layers = details.depths_of_layers();
-            let mut found = quantity.at_nodes(self.finished, self.extract, of_layers, notes)?;
-            if quantity.is_depth() {
-                details.depth_changes.apply(self.extract, &mut found.values);
-            }
-            values.push(found);
+            let known = details.given_depths(quantity).filter(|_| is_known);
+            depths_are_changed |= known.is_some();
+            values.push(match known {
+                Some(depths) => NodeValues { name: DEPTH.into(), values: depths.to_vec() },
+                None => {
+                    let of_layers = details.depths_of_layers();
+                    quantity.at_nodes(self.finished, self.extract, of_layers, notes)?
+                }
+            });
         }
-        let depths = details.depths.as_ref().map(|depths| (DEPTH, depths.depths.clone()));
-        let heights = details.heights.as_ref().map(|heights| (SURFACE, heights.clone()));
+        let heights = details.heights.as_ref().map(|heights| (SURFACE, &**heights));
+        let has_depths = values.iter().any(|values| values.name == DEPTH);
+        let written = details.written_depths().filter(|_| is_known);
+        depths_are_changed |= !has_depths && written.is_some();
+        let depths = written.or(details.depths_of_layers()).map(|depths| (DEPTH, depths));
         for (name, of_layers) in depths.into_iter().chain(heights) {
             if !values.iter().any(|values| values.name == name) {
-                values.push(NodeValues { name: name.into(), values: of_layers });
+                values.push(NodeValues { name: name.into(), values: of_layers.to_vec() });
             }
         }
-        Ok(values)
+        let changed = match values.iter_mut().find(|values| values.name == DEPTH) {
+            Some(_) if depths_are_changed => details.changed_depths,
+            Some(depths) => changes.apply(self.extract, &mut depths.values),
+            None => ChangedDepths::default(),
+        };
+        Ok((values, changed))
     }
 
     /// Returns the data of the mesh with these values at the nodes. A flat mesh has no heights.

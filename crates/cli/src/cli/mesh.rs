@@ -53,7 +53,8 @@ pub fn run(
     let wants_details = typed.json || writes;
     let node_data = files.iter().any(RequestedFiles::wants_node_data);
     let given_depth = files.iter().find_map(RequestedFiles::depth);
-    let uses = DetailUses { json: typed.json, node_data, given_depth, depth_changes: typed.depths.into() };
+    let depth_changes = files.iter().find_map(RequestedFiles::depth_changes).unwrap_or_default();
+    let uses = DetailUses { json: typed.json, node_data, given_depth, depth_changes };
     let (details, mut summary) = terminal.while_working("measuring the mesh", || {
         let details =
             wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, coordinates, uses));
@@ -98,8 +99,9 @@ fn all_files(
 ) -> Result<Vec<RequestedFiles>, Failure> {
     let mut files = input.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
     files.push(by_options);
-    let divided = files.into_iter().map(|files| files.divided(typed.parts_for));
-    let files: Vec<RequestedFiles> = divided.collect();
+    let by_options =
+        |files: RequestedFiles| files.divided(typed.parts_for).with_depth_changes(typed.depths.into());
+    let files: Vec<RequestedFiles> = files.into_iter().map(by_options).collect();
     let all: Vec<Output> = files.iter().flat_map(|files| files.outputs.clone()).collect();
     partition::check(typed, &all)?;
     let inputs: Vec<_> =

@@ -25,6 +25,7 @@ mod opened_file;
 mod options;
 pub mod output;
 pub mod output_coordinates;
+pub mod output_keys;
 mod partition;
 mod path;
 mod path_proof;

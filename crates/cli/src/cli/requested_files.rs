@@ -4,19 +4,21 @@ use std::path::PathBuf;
 
 use super::args::MeshArguments;
 use super::build::FinishedMesh;
+use super::depths::{ChangedDepths, DepthChanges};
 use super::details::MeshDetails;
 use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::output_coordinates::OutputCoordinates;
-use super::quantities::{NamedQuantity, QuantityError, expression, parse_quantities, typed_quantities};
+use super::output_keys::{check_use, depth_changes_of, quantities_of};
+use super::quantities::{NamedQuantity, typed_quantities};
 use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
 use meshbrush_core::cells::{LARGEST_COSINE, LinkFigures};
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{
-    CellShape, Interruption, KeyFault, MeshData, Meter, NodeValues, SURFACE, ThirdCoordinate, UnknownCells,
+    CellShape, Interruption, JoinedCells, KeyFault, MeshData, Meter, NodeValues, SURFACE, UnknownCells,
     joined_cells, joined_links,
 };
 use meshbrush_mesh::mesh::Extract;
@@ -41,6 +43,10 @@ pub struct RequestedFiles {
     pub outputs: Vec<Output>,
     look: RequestedLook,
     quantities: Vec<NamedQuantity>,
+    /// How their depths are changed.
+    depth_changes: DepthChanges,
+    /// Whether keys of an output ask for that, and no option.
+    changes_by_keys: bool,
     /// Whether the third coordinate is 0, and not the height of a surface.
     is_flat: bool,
     /// The cells of formats that can have quadrilaterals.
@@ -82,7 +88,16 @@ impl RequestedFiles {
         if let Some(output) = outputs.iter().find(|output| !output.can_have(cells)) {
             return Err(Failure::Usage(format!("--cells squares: {} {TRIANGLES_ONLY}", output.name())));
         }
-        Ok(Self { outputs, look, quantities, is_flat: typed.flat, cells, parts_for: None })
+        Ok(Self {
+            outputs,
+            look,
+            quantities,
+            depth_changes: typed.depths.into(),
+            changes_by_keys: false,
+            is_flat: typed.flat,
+            cells,
+            parts_for: None,
+        })
     }
 
     /// Returns the files that a recipe requests, in its order.
@@ -114,13 +129,23 @@ impl RequestedFiles {
         check_count("The output", "quantities", count, MOST_QUANTITIES)
             .map_err(|failure| KeyFault::value("quantities", failure.to_string()))?;
         let quantities = quantities_of(saved)?;
+        let depth_changes = depth_changes_of(saved)?;
         let cells = saved.cells.as_deref().map(str::parse).transpose();
         let cells = cells.map_err(|error: UnknownCells| KeyFault::value("cells", error.to_string()))?;
         let cells = cells.unwrap_or_default();
         if !file.can_have(cells) {
             return Err(KeyFault::value("cells", format!("the file {TRIANGLES_ONLY}")));
         }
-        Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat, cells, parts_for: None })
+        Ok(Self {
+            outputs: vec![file],
+            look,
+            quantities,
+            depth_changes,
+            changes_by_keys: !depth_changes.is_empty(),
+            is_flat: saved.flat,
+            cells,
+            parts_for: None,
+        })
     }
 
     /// Returns the same with a number in the name of each file.
@@ -132,6 +157,16 @@ impl RequestedFiles {
     /// Returns the same with the mesh in so many parts.
     pub fn divided(self, parts_for: Option<u32>) -> Self {
         Self { parts_for, ..self }
+    }
+
+    /// Returns the same with depths that are changed as options say; what they leave open is as it was.
+    pub fn with_depth_changes(self, by_options: DepthChanges) -> Self {
+        Self { depth_changes: by_options.or(self.depth_changes), ..self }
+    }
+
+    /// Returns how the depths are changed, if they are.
+    pub fn depth_changes(&self) -> Option<DepthChanges> {
+        Some(self.depth_changes).filter(|changes| !changes.is_empty())
     }
 
     /// Returns the cells of formats that can have quadrilaterals.
@@ -194,86 +229,6 @@ impl RequestedFiles {
     }
 }
 
-/// Returns the quantities of an output: those of formulas, and then those of grids.
-///
-/// # Errors
-/// Fails for the first value that cannot be used.
-pub fn quantities_of(saved: &SavedOutput) -> Result<Vec<NamedQuantity>, KeyFault> {
-    let mut quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
-        let fault = match &error {
-            QuantityError::Formula(mistake) => {
-                let text = &saved.quantities[index];
-                KeyFault::mistake("quantities", text, text.len() - expression(text).len(), mistake)
-            }
-            _ => KeyFault::value("quantities", error.to_string()),
-        };
-        fault.at(index)
-    })?;
-    for (index, grid) in saved.grids.iter().enumerate() {
-        let quantity = NamedQuantity::of_grid(grid, &quantities).map_err(|error| {
-            let key = if matches!(error, QuantityError::File(_)) { "file" } else { "name" };
-            KeyFault::value(key, error.to_string()).within(index).within("grids")
-        });
-        quantities.push(quantity?);
-    }
-    Ok(quantities)
-}
-
-/// Refuses keys that mean nothing for the format of an output.
-fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
-    let SavedOutput {
-        file: _,
-        binary,
-        cells: _,
-        quantities,
-        grids,
-        flat,
-        size,
-        edges,
-        dpi,
-        colormap,
-        color_by,
-        light,
-        ground,
-        furniture,
-        view,
-        azimuth,
-        altitude,
-        exaggeration,
-    } = saved;
-    if *binary && !output.is_binary() {
-        let sentence = "only .msh has a text form and a binary form; leave it out.";
-        return Err(KeyFault::key("binary", sentence));
-    }
-    if *flat && output.third_coordinate() == ThirdCoordinate::None {
-        let sentence = "the files of this format have no height of a surface; leave it out.";
-        return Err(KeyFault::key("flat", sentence));
-    }
-    let of_nodes = [("quantities", !quantities.is_empty()), ("grids", !grids.is_empty())];
-    if let Some((key, _)) = of_nodes.iter().find(|(_, is_given)| *is_given && !output.wants_node_data()) {
-        let sentence = "this format holds no values at the nodes; leave it out, or take another format.";
-        return Err(KeyFault::key(*key, sentence));
-    }
-    let of_pictures = [
-        ("size", size.is_some()),
-        ("edges", edges.is_some()),
-        ("colormap", colormap.is_some()),
-        ("color_by", color_by.is_some()),
-        ("dpi", dpi.is_some()),
-        ("light", light.is_some()),
-        ("ground", ground.is_some()),
-        ("furniture", furniture.is_some()),
-        ("view", view.is_some()),
-        ("azimuth", azimuth.is_some()),
-        ("altitude", altitude.is_some()),
-        ("exaggeration", exaggeration.is_some()),
-    ];
-    match of_pictures.iter().find(|(_, is_given)| *is_given && !output.is_picture()) {
-        Some(&(key, _)) => Err(KeyFault::key(key, "this is for pictures, .png and .svg; leave it out.")),
-        None => Ok(()),
-    }
-}
-
 /// Writes files, and says which.
 ///
 /// # Errors
@@ -309,11 +264,14 @@ pub fn write_files(
         if files.outputs.iter().any(Output::is_picture) {
             look.missing_furniture().iter().for_each(|note| terminal.note(note));
         }
-        let quantities = files.values_at_nodes(&exported, Vec::new(), &mut quantity_notes)?;
+        let (quantities, changed) = files.values_at_nodes(&exported, Vec::new(), &mut quantity_notes)?;
         quantity_notes.extend(files.lost_quantities(&quantities));
+        quantity_notes.extend(files.idle_changes(changed));
+        let provenance = &changed.said_in(details.provenance.clone());
         let data = MeshData {
             cells: files.cells,
             parts_for: files.parts_for,
+            provenance,
             ..exported.data(&quantities, files.is_flat)
         };
         for output in &files.outputs {
@@ -412,25 +370,41 @@ impl RequestedFiles {
     ) -> Result<Vec<PathBuf>, Failure> {
         let placed = exported.in_coordinates()?;
         let placed = placed.as_ref().unwrap_or(exported.extract);
-        let quantities = self.values_at_nodes(exported, values, notes)?;
+        let (quantities, changed) = self.values_at_nodes(exported, values, notes)?;
         let look = self.look_for(exported.finished, exported.extract)?;
-        let data = exported.data(&quantities, self.is_flat);
+        let provenance = &changed.said_in(exported.provenance.clone());
+        // Those of the details can be in other coordinates.
+        let joined = &JoinedCells::default();
+        let data =
+            MeshData { cells: self.cells, joined, provenance, ..exported.data(&quantities, self.is_flat) };
         notes.extend(self.lost_quantities(&quantities));
+        notes.extend(self.idle_changes(changed));
         let write = |output: &Output| exported.write(output, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }
 
+    /// Returns a sentence where keys ask for other depths, and the file has none.
+    fn idle_changes(&self, changed: ChangedDepths) -> Option<String> {
+        let DepthChanges { least, slope } = self.depth_changes;
+        let is_idle = self.changes_by_keys && (least.is_some(), slope.is_some()) != changed.kinds();
+        let name = self.outputs.first().filter(|_| is_idle)?.name();
+        Some(format!(
+            "{name} has no depths, so its least_depth and depth_slope change nothing: a layer of depths, or a quantity of \
+             the name depth, gives it some."
+        ))
+    }
+
     /// Returns the values at the nodes: those given, the quantities, and the depths and surfaces of layers,
-    /// unless one of them is called so.
+    /// unless one of them is called so; and what was changed of the depths.
     fn values_at_nodes(
         &self,
         exported: &ExportedMesh,
         values: Vec<NodeValues>,
         notes: &mut Vec<String>,
-    ) -> Result<Vec<NodeValues>, Failure> {
+    ) -> Result<(Vec<NodeValues>, ChangedDepths), Failure> {
         match self.wants_node_data() {
-            true => exported.values_at_nodes(&self.quantities, values, notes),
-            false => Ok(Vec::new()),
+            true => exported.values_at_nodes(&self.quantities, values, self.depth_changes, notes),
+            false => Ok(Default::default()),
         }
     }
 }

@@ -77,7 +77,6 @@ impl SequenceStart<'_> {
         for number in 1..=count {
             if number > 1 {
                 current = current.refined().ok_or_else(|| too_fine(count, number))?;
-                // The line about a least depth is there already.
                 details = MeshDetails::with_provenance(finished, &current, origin.clone(), uses)?;
                 details.target_factor = 0.5_f64.powi(number as i32 - 1);
             }

@@ -261,6 +261,12 @@ pub struct SavedOutput {
     /// Further values at the nodes, from grids.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grids: Vec<SavedQuantityGrid>,
+    /// The least depth in the file, in metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub least_depth: Option<f64>,
+    /// The largest r-factor of an edge: the depths are smoothed to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_slope: Option<f64>,
     /// Whether the third coordinate is 0, and not the height of a surface.
     #[serde(default, skip_serializing_if = "is_no")]
     pub flat: bool,
