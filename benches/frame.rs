@@ -95,7 +95,8 @@ impl Bench {
         let follower = Follower::new(&mut document).expect("it has a mesh");
         let began = Instant::now();
         let cleaning = follower.settings().derived_cleaning();
-        let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+        let targets = follower.edge_targets(document.paint());
+        let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning);
         let extract = derived.extract(follower.mesh());
         let pieces = PatchPieces::new(follower.mesh(), derived.patch(), &extract);
         let (triangles, count) = (follower.mesh().raw_triangle_count(), pieces.triangles().len());

@@ -73,18 +73,22 @@ impl Scene {
         follower.take_change();
         let count = follower.mesh().raw_triangle_count();
         eprintln!("{}, {count} triangles, {threads} threads", self.name);
+        let targets = follower.edge_targets(self.document.paint());
         for (name, cleaning) in [("from scratch", Cleaning::NONE), ("and cleaned", Cleaning::FOR_SOLVERS)] {
-            let runs = (0..RUNS)
-                .map(|_| measured(|| _ = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning)));
+            let runs = (0..RUNS).map(|_| {
+                measured(|| _ = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning))
+            });
             report(name, runs.min().expect("some runs"));
         }
         let both = || {
             let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
-            let mut derivation = MeshDerivation::new(mesh, domain, Cleaning::FOR_SOLVERS, true);
+            let targets = follower.shared_targets(self.document.paint());
+            let mut derivation = MeshDerivation::new(mesh, domain, targets, Cleaning::FOR_SOLVERS, true);
             while derivation.advance() == Progress::More {}
         };
         report("and followed", (0..RUNS).map(|_| measured(both)).min().expect("some runs"));
-        let mut outline = OutlineFollower::new(follower.mesh(), follower.domain()).expect("on the outline");
+        let mut outline =
+            OutlineFollower::new(follower.mesh(), follower.domain(), targets).expect("on the outline");
         let (mut times, mut changed) = (Vec::new(), 0);
         for n in 0..DABS {
             self.dab(n);
@@ -94,7 +98,8 @@ impl Scene {
                 }
                 let Some(changes) = follow(&mut self.document, &mut follower) else { continue };
                 changed += changes.triangles.iter().map(ExactSizeIterator::len).sum::<usize>();
-                times.push(measured(|| _ = outline.update(follower.mesh(), &changes)));
+                let targets = follower.edge_targets(self.document.paint());
+                times.push(measured(|| _ = outline.update(follower.mesh(), targets, &changes)));
             }
         }
         times.sort();

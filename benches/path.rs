@@ -232,7 +232,12 @@ fn coasts() {
     let mut document = lake_document();
     let domain = document.settings().domain.clone();
     let follower = Follower::new(&mut document).expect("it has a mesh");
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &Cleaning::FOR_SOLVERS);
+    let derived = DerivedMesh::new(
+        follower.mesh(),
+        follower.domain(),
+        follower.edge_targets(document.paint()),
+        &Cleaning::FOR_SOLVERS,
+    );
     let extract = derived.extract(follower.mesh());
     let area = |clearance| PathArea::new(&domain, Vec::new(), clearance).expect("a distance");
     for threads in [1, 2] {

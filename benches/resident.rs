@@ -79,7 +79,10 @@ pub fn answer() -> bool {
     let mut document = case.document();
     let Some([before, _]) = resident_and_most() else { return true };
     let follower = Follower::new(&mut document).expect("it has a mesh");
-    let outline = OutlineFollower::new(follower.mesh(), follower.domain());
+    let outline = {
+        let targets = follower.edge_targets(document.paint());
+        OutlineFollower::new(follower.mesh(), follower.domain(), targets)
+    };
     let path = matches!(case, Case::Path).then(|| planner(&follower));
     let [at_rest, most] = resident_and_most().expect("the system has told before");
     println!("{} {before} {at_rest} {most}", follower.mesh().raw_triangle_count());

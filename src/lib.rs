@@ -109,7 +109,9 @@ pub use meshbrush_core::earth::{
     ProjectionTextError, Reprojection, projected_polygons,
 };
 #[doc(inline)]
-pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};
+pub use meshbrush_core::outline::{
+    DerivedMesh, DerivedViolation, EdgeTargets, OutlineFit, OutlineFollower, SharedTargets,
+};
 #[doc(inline)]
 pub use meshbrush_io::io::{
     Cancelled, CellShape, Counted, Flaw, JoinedCells, MeshData, MeshFormat, MeshSource, Meter, NodeValues,

@@ -413,7 +413,8 @@ fn derived(
     watch: &Watch,
 ) -> Result<Arc<Shared>, String> {
     watch.tell("fitting the mesh to its domain", built.mesh.raw_triangle_count() as u64);
-    let derived = DerivedMesh::new(&built.mesh, &built.domain, &origin.spec.cleaning);
+    let targets = built.edge_targets(&origin.paint);
+    let derived = DerivedMesh::new(&built.mesh, &built.domain, targets, &origin.spec.cleaning);
     let finished = FinishedMesh::new(built, derived, origin, refinement, capped);
     Ok(Shared::new(finished.map_err(|error| error.to_string())?, name))
 }

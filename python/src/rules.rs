@@ -91,7 +91,7 @@ impl Document {
                 return Err(BY_VERTICES.to_owned());
             }
             let make = |spec| built(spec, &origin.paint, watch).map(|(built, ..)| built);
-            Ok((repaired(solver, &origin.spec, &origin.marks, 1.0, make)?, revision))
+            Ok((repaired(solver, &origin.spec, &origin.marks, (1.0, &origin.paint), make)?, revision))
         })?
         .map_err(mesh_error)?;
         self.with(py, |state| {

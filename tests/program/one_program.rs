@@ -382,7 +382,8 @@ fn random_documents_are_equal_when_they_are_saved_and_opened() {
 fn in_window(document: &mut Document) -> String {
     let follower = Follower::new(document).unwrap();
     let cleaning = document.settings().derived_cleaning();
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let targets = follower.edge_targets(document.paint());
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning);
     let triangles = derived.extract(follower.mesh()).triangles().len();
     format!("{} {triangles}", follower.mesh().fingerprint())
 }

@@ -44,7 +44,8 @@ fn drawn(window: &Window) -> Vec<Corners> {
 fn from_scratch(document: &Document) -> Vec<Corners> {
     let follower = Follower::new(&mut document.clone()).unwrap();
     let cleaning = follower.settings().derived_cleaning();
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let targets = follower.edge_targets(document.paint());
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning);
     let extract = derived.extract(follower.mesh());
     let cells = extract.cells().map(|cell| cell.corners.map(|n| extract.node(NodeId::from_index(n))));
     sorted(cells.map(corners).collect())
@@ -56,7 +57,8 @@ fn whole_from_scratch(window: &Window) -> Option<Vec<Corners>> {
     let session = window.state().session();
     let follower = session.follower();
     session.derivation().shows_whole_coast(follower).then_some(())?;
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &Cleaning::NONE);
+    let targets = follower.edge_targets(session.document().paint());
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &Cleaning::NONE);
     let extract = derived.extract(follower.mesh());
     let cells = extract.cells().map(|cell| cell.corners.map(|n| extract.node(NodeId::from_index(n))));
     Some(sorted(cells.map(corners).collect()))

@@ -263,7 +263,9 @@ impl Meshbrush {
         let area = view.camera.map_or(lattice.bounds(), |camera| camera.visible_world());
         let camera = Camera::fit(lattice, area, [width, height], 0.0);
         let style = view.style(settings, 0, 1.0);
-        let derived = DerivedMesh::new(mesh, session.follower().domain(), &settings.derived_cleaning());
+        let targets = session.follower().edge_targets(session.document().paint());
+        let (domain, cleaning) = (session.follower().domain(), settings.derived_cleaning());
+        let derived = DerivedMesh::new(mesh, domain, targets, &cleaning);
         let extract = derived.extract(mesh);
         let picture = match extract.is_patched() {
             true => software::draw_extract(&extract, &camera, &style),

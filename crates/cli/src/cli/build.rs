@@ -283,7 +283,8 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
-    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &origin.spec.cleaning);
+    let targets = built.edge_targets(&origin.paint);
+    let derive = || DerivedMesh::new(&built.mesh, &built.domain, targets, &origin.spec.cleaning);
     let derived = terminal.while_working("fitting the mesh to its domain", derive);
     let finished = FinishedMesh::new(built, derived, origin, refinement, capped)?;
     if let Some(note) = finished.surface_note() {

@@ -87,7 +87,7 @@ fn repair(read: &ToMesh, solver: Solver, terminal: &mut Terminal) -> Result<Repa
         terminal.clear();
         refined.map(|_| builder.finish())
     };
-    repaired(solver, &read.spec, &read.marks, read.scale, make)
+    repaired(solver, &read.spec, &read.marks, (read.scale, &read.paint), make)
 }
 
 impl RepairSummary {

@@ -9,6 +9,7 @@ use crate::layers::{InvalidLayer, LayerCheck, LevelCachePool, PaintLayers, SizeF
 use crate::mesh::{
     BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
 };
+use crate::outline::EdgeTargets;
 use crate::surface::{SurfaceRule, SurfaceSamples};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
@@ -87,6 +88,14 @@ pub struct BuiltMesh {
     pub surface: Option<Arc<SurfaceRule>>,
     /// The mesh. Triangles outside a fitted domain are marked.
     pub mesh: Mesh,
+}
+
+impl BuiltMesh {
+    /// Returns what the edges of the derived mesh are compared with, for the pixels that the mesh was made
+    /// from; `None` by the vertex rule, which knows h̄ at the nodes of the mesh only.
+    pub fn edge_targets<'a>(&'a self, paint: &'a PaintLayers) -> Option<EdgeTargets<'a>> {
+        EdgeTargets::by_rule(self.rule, &self.field, paint)
+    }
 }
 
 /// The parts that a builder may take over from an earlier mesh.

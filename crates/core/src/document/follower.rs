@@ -31,6 +31,7 @@ use crate::build::{BuildError, BuiltMesh, Parts};
 use crate::domain::DomainOnLattice;
 use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Changes, Limits, Mesh, MeshCopy, Progress};
+use crate::outline::{EdgeTargets, SharedTargets};
 use crate::surface::SurfaceRule;
 
 /// Keeps field and mesh in step with a document, in slices.
@@ -161,6 +162,18 @@ impl Follower {
     /// Returns the field as it is, for work that takes longer than a frame.
     pub fn shared_field(&self) -> Arc<SizeField> {
         self.shown.field.clone()
+    }
+
+    /// Returns what the edges of the derived mesh are compared with, with the pixels of the document; `None`
+    /// by the vertex rule, which knows h̄ at the nodes of the mesh only.
+    pub fn edge_targets<'a>(&'a self, paint: &'a PaintLayers) -> Option<EdgeTargets<'a>> {
+        EdgeTargets::by_rule(self.shown.settings.rule, &self.shown.field, paint)
+    }
+
+    /// [`Self::edge_targets`] for work that takes longer than a frame.
+    pub fn shared_targets(&self, paint: &PaintLayers) -> Option<SharedTargets> {
+        let shared = |_| SharedTargets { field: self.shown.field.clone(), paint: paint.clone() };
+        self.edge_targets(paint).map(shared)
     }
 
     /// Returns how close the shown mesh is to surfaces, if a layer is one.

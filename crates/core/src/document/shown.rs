@@ -11,7 +11,7 @@ use super::{Document, Settings};
 use crate::build::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts, RefinementCriterion};
 use crate::domain::{Domain, DomainOnLattice, DomainShape};
 use crate::field::{RefinementRule, Transfer};
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, LatticeRect};
 use crate::layers::{PaintChange, PaintLayers, SizeField};
 use crate::mesh::{
     ChangedArea, Changes, Limits, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule,
@@ -35,6 +35,8 @@ pub(super) struct Shown {
     /// The changes that the updates apply.
     pending: Pending,
     upkeep: Upkeep,
+    /// Where targets changed since this was last asked, if nodes are moved to an outline.
+    retargeted: Vec<LatticeRect>,
 }
 
 /// The work that brings the shown mesh up to date.
@@ -108,8 +110,9 @@ impl Shown {
         let BuiltMesh { domain, field, surface, mesh, .. } = built;
         let updater = Updater::new(settings.limits());
         let (pending, upkeep) = (Pending::default(), Upkeep::InPlace);
-        let mut shown =
-            Self { settings, domain, field, surface, mesh: Arc::new(mesh), updater, pending, upkeep };
+        let mesh = Arc::new(mesh);
+        let retargeted = Vec::new();
+        let mut shown = Self { settings, domain, field, surface, mesh, updater, pending, upkeep, retargeted };
         shown.repaint(repainted, paint);
         shown
     }
@@ -144,10 +147,18 @@ impl Shown {
             RefinementRule::Area => {
                 self.pending.paint(self.updater.is_done(), changes, &self.field);
                 let areas = self.pending.changed_areas(changes, &self.field, paint);
-                areas.into_iter().for_each(|area| self.updater.add_area(area));
+                areas.into_iter().for_each(|area| self.add_area(area));
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
         }
+    }
+
+    /// Lets the mesh be updated where targets may have changed.
+    fn add_area(&mut self, area: ChangedArea) {
+        if self.domain.region_on_outline().is_some() {
+            self.retargeted.push(area.rect);
+        }
+        self.updater.add_area(area);
     }
 
     /// Notes that the document was replaced.
@@ -229,7 +240,7 @@ impl Shown {
             }
             None => {}
         }
-        changes.into_iter().for_each(|area| self.updater.add_area(area));
+        changes.into_iter().for_each(|area| self.add_area(area));
         match outline {
             None => self.domain = self.domain.with_boundary(settings.boundary),
             Some((domain, areas)) => {
@@ -290,9 +301,13 @@ impl Shown {
         result.map(|_| ()).map_err(|error| error.map_rule(|never| match never {}))
     }
 
-    /// Returns the changes by updates since the last call, or `None` if there are none.
+    /// Returns the changes by updates and of targets since the last call, or `None` if there are none.
     pub(super) fn take_changes(&mut self) -> Option<Changes> {
-        let changes = self.updater.take_changes()?;
+        let retargeted = std::mem::take(&mut self.retargeted);
+        let Some(changes) = self.updater.take_changes() else {
+            return (!retargeted.is_empty()).then(|| Changes { retargeted, ..Changes::default() });
+        };
+        let changes = Changes { retargeted, ..changes };
         let mesh = Arc::get_mut(&mut self.mesh).expect("it was not shared when it was changed");
         if self.domain.is_fitted() || mesh.outside_count() > 0 {
             for ids in &changes.triangles {

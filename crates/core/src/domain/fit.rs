@@ -23,7 +23,7 @@ pub enum BoundaryTreatment {
         diameter: f64,
     },
     /// The mesh is refined as for [`Self::Fitted`]. What is exported along the boundary is derived from it,
-    /// with nodes on the polygons.
+    /// with nodes on the polygons and edges that are not longer than their targets.
     OnOutline {
         /// Largest diameter of a triangle of the mesh that the boundary passes through, in world units.
         diameter: f64,

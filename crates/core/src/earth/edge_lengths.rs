@@ -20,6 +20,8 @@ pub struct EdgeLengths {
     table: Arc<[f64]>,
     scale: Option<Arc<ScaleMap>>,
     halvings: u32,
+    /// The length of the largest triangle in the plane.
+    longest_in_plane: f64,
 }
 
 /// Diameters that are longer than a target by this share meet it: scales are rounded.
@@ -38,7 +40,7 @@ impl EdgeLengths {
                 scales.flat_map(of_band).collect()
             }
         };
-        Self { table, scale, halvings: lattice.halvings() }
+        Self { table, scale, halvings: lattice.halvings(), longest_in_plane: of_level(0) }
     }
 
     /// Returns the lengths divided by a number, to be compared with targets that are multiplied by it.
@@ -64,6 +66,23 @@ impl EdgeLengths {
     #[inline]
     pub fn of(&self, corners: [LatticePoint; 3], level: u32) -> f64 {
         self.limit(corners, level).map_or(0.0, |limit| self.table[limit])
+    }
+
+    /// Returns the length of a line of length 1 in the plane, in a triangle that need not be one of a mesh:
+    /// no shorter than on the ellipsoid, and no longer than in a triangle of a mesh around it.
+    pub fn of_unit_in(&self, corners: [LatticePoint; 3]) -> f64 {
+        let longest = |band: usize| self.table[LEVELS * band] / self.longest_in_plane;
+        let Some(scale) = &self.scale else { return longest(0) };
+        let [min, max] = [
+            corners.iter().fold([u32::MAX; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]),
+            corners.iter().fold([0; 2], |[x, y], p| [x.max(p.x), y.max(p.y)]),
+        ];
+        let side = (max[0] - min[0]).max(max[1] - min[1]).max(1);
+        let bits = side.next_power_of_two().ilog2();
+        let [first, last] = [min.map(|v| v >> bits), [0, 1].map(|n| (max[n] - 1).max(min[n]) >> bits)];
+        let squares =
+            (first[1]..=last[1]).flat_map(|row| (first[0]..=last[0]).map(move |column| [column, row]));
+        longest(squares.map(|place| scale.band_in(bits, place)).min().unwrap_or(0))
     }
 
     /// Returns the length of the largest triangle.

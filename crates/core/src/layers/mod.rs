@@ -18,6 +18,7 @@ mod kinds;
 mod layer;
 mod layer_source;
 mod least;
+mod lengths;
 mod mask;
 #[cfg(test)]
 mod model_tests;

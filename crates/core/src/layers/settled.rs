@@ -43,6 +43,8 @@ struct Settled {
     square: Option<LatticeSquare>,
     /// The known answers for all triangles within the square.
     levels: LevelsWithin,
+    /// h̄ is between these everywhere in the square, in world units.
+    bounds: [f64; 2],
     /// No point of a cell that touches a triangle within asks for less, in world units.
     least_asked: f64,
     /// The parts of the lattice from which gradation can carry to triangles within.
@@ -58,8 +60,13 @@ const LEAST_BITS: u32 = 3;
 const WIDER_BITS: u32 = 4;
 
 impl Settled {
-    const EMPTY: Self =
-        Self { square: None, levels: LevelsWithin::UNKNOWN, least_asked: 0.0, sources: Vec::new() };
+    const EMPTY: Self = Self {
+        square: None,
+        levels: LevelsWithin::UNKNOWN,
+        bounds: [0.0, f64::INFINITY],
+        least_asked: 0.0,
+        sources: Vec::new(),
+    };
 }
 
 impl Default for LevelCache {
@@ -224,6 +231,26 @@ impl SizeField {
         (bits > 0).then_some(LatticeSquare { bits, column, row })
     }
 
+    /// Returns the bounds of h̄ in a wide square around a triangle with any corners; `None` where there is
+    /// none that is not much larger.
+    pub(super) fn bounds_around(
+        &self,
+        squares: &mut LevelCache,
+        paint: &PaintLayers,
+        corners: [LatticePoint; 3],
+    ) -> Option<[f64; 2]> {
+        let [x, y] =
+            [corners.map(|c| c.x), corners.map(|c| c.y)].map(|[a, b, c]| [a.min(b).min(c), a.max(b).max(c)]);
+        let side = (x[1] - x[0]).max(y[1] - y[0]).max(1 << LEAST_BITS);
+        let bits = side.next_power_of_two().ilog2() + WIDER_BITS;
+        let [column, row] = [x, y].map(|[low, _]| low.unbounded_shr(bits));
+        let is_within = [x, y].map(|[_, high]| high.unbounded_shr(bits)) == [column, row];
+        (is_within && bits < u32::BITS).then(|| {
+            let place = self.settled(squares, paint, LatticeSquare { bits, column, row });
+            squares.squares[place].bounds
+        })
+    }
+
     /// Returns the place of what is known of all triangles in a square.
     #[inline]
     fn settled(&self, squares: &mut LevelCache, paint: &PaintLayers, square: LatticeSquare) -> usize {
@@ -295,8 +322,10 @@ impl SizeField {
                 )
             }
         };
-        let levels = self.levels_between([bounds.least, bounds.greatest], square);
-        Settled { square: Some(square), levels, least_asked: least, sources: bounds.sources }
+        let between = [bounds.least, bounds.greatest];
+        let levels = self.levels_between(between, square);
+        let (square, sources) = (Some(square), bounds.sources);
+        Settled { square, levels, bounds: between, least_asked: least, sources }
     }
 }
 

@@ -1,19 +1,20 @@
 //! Derives the mesh with nodes on the outline from the mesh of right-angled triangles, step by step.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::angles::Angles;
 use super::band::{Band, BandPlace, GRAIN};
-use super::corners::{Pin, TurningCorners};
+use super::corners::Pin;
 use super::fitting::Fitting;
+use super::lengths::EdgeTargets;
+use super::line::OutlineOnLattice;
 use super::patchwork::Patchwork;
 use super::stages::Watch;
 use super::stencil::NodePlacement;
 use crate::domain::RegionOnLattice;
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
 
 /// The fit of the nodes of the boundary to the outline.
@@ -55,8 +56,13 @@ pub(super) struct OutlineChanges {
 impl OutlineChanges {
     /// Finds the changes that put the nodes of the boundary on the outline of a region, and tells `watch` of
     /// each stage.
-    pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
-        let outline = OutlineOnLattice::new(mesh.lattice(), region);
+    pub fn new(
+        mesh: &Mesh,
+        region: &RegionOnLattice,
+        targets: Option<EdgeTargets>,
+        watch: Watch<'_>,
+    ) -> Self {
+        let outline = OutlineOnLattice::new(mesh.lattice(), region, targets);
         let fitted = FittedBand::whole(mesh, region, &outline, watch);
         Self::from_fitted(mesh, &outline, &fitted)
     }
@@ -64,31 +70,6 @@ impl OutlineChanges {
     /// Returns the changes of a whole band that was put on an outline.
     pub(super) fn from_fitted(mesh: &Mesh, outline: &OutlineOnLattice, fitted: &FittedBand) -> Self {
         fitted.with_patch(fitted.patch(mesh, outline), outline)
-    }
-}
-
-/// An outline, with what all nodes along it ask about.
-pub(super) struct OutlineOnLattice<'a> {
-    pub(super) region: &'a RegionOnLattice,
-    pub(super) lattice: Lattice,
-    pub(super) angles: Angles,
-    pub(super) corners: Arc<TurningCorners>,
-}
-
-impl<'a> OutlineOnLattice<'a> {
-    pub(super) fn new(lattice: &Lattice, region: &'a RegionOnLattice) -> Self {
-        let angles = Angles::new(lattice.step());
-        let corners = TurningCorners::new(region, lattice.extent(), &angles);
-        Self::with_corners(lattice, region, Arc::new(corners))
-    }
-
-    /// [`Self::new`], with the corners of the outline.
-    pub(super) fn with_corners(
-        lattice: &Lattice,
-        region: &'a RegionOnLattice,
-        corners: Arc<TurningCorners>,
-    ) -> Self {
-        Self { region, lattice: *lattice, angles: Angles::new(lattice.step()), corners }
     }
 }
 
@@ -177,13 +158,25 @@ impl FittedBand {
     /// at it or in an edge of it.
     pub(super) fn acted(&self) -> Vec<bool> {
         let mut acted = self.patchwork.acted[..self.band.points.len()].to_vec();
-        for cut in self.band.points.len()..self.patchwork.acted.len() {
-            if self.patchwork.acted[cut] {
-                let ends = self.placement.band_nodes_at(&self.band, cut as u32);
+        let added = self.band.points.len() as u32..self.patchwork.acted.len() as u32;
+        for v in added.filter(|&v| self.patchwork.acted[v as usize]) {
+            for end in self.ends_of(v) {
+                let ends = self.placement.band_nodes_at(&self.band, end);
                 ends.into_iter().for_each(|v| acted[v as usize] = true);
             }
         }
         acted
+    }
+
+    /// Returns the ends of the divided edge whose middle a node is; the node itself, if it is none.
+    fn ends_of(&self, node: u32) -> [u32; 2] {
+        let middle = (node as usize).checked_sub(self.placement.homes.len());
+        middle.map_or([node; 2], |middle| self.patchwork.divided[middle])
+    }
+
+    /// Returns the position of a node on the mesh: of one in a cut or divided edge, the middle of that.
+    pub(super) fn home(&self, node: u32) -> LatticePoint {
+        self.placement.home_of_middle(self.ends_of(node))
     }
 }
 

@@ -1,6 +1,7 @@
 use super::OutlineFollower;
 use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
+use super::lengths::EdgeTargets;
 use super::stages::{DerivationAction, Watch};
 use crate::domain::DomainOnLattice;
 use crate::geometry::LatticePoint;
@@ -24,19 +25,28 @@ pub struct DerivedMesh {
 impl DerivedMesh {
     /// Derives the mesh. Time and memory grow with the mesh, and above all with the triangles along the
     /// outline.
-    pub fn new(mesh: &Mesh, domain: &DomainOnLattice, cleaning: &Cleaning) -> Self {
-        Self::watched(mesh, domain, cleaning, &mut |_, _| {})
+    ///
+    /// Where the triangles of the mesh meet these targets, no edge is longer than h̄ at any point of the
+    /// triangles beside it; without targets, edges may have any length.
+    pub fn new(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        targets: Option<EdgeTargets>,
+        cleaning: &Cleaning,
+    ) -> Self {
+        Self::watched(mesh, domain, targets, cleaning, &mut |_, _| {})
     }
 
     /// [`Self::new`], which tells `watch` of each stage.
     pub(super) fn watched(
         mesh: &Mesh,
         domain: &DomainOnLattice,
+        targets: Option<EdgeTargets>,
         cleaning: &Cleaning,
         watch: Watch<'_>,
     ) -> Self {
         let region = domain.region_on_outline();
-        let changes = region.map(|region| OutlineChanges::new(mesh, region, watch));
+        let changes = region.map(|region| OutlineChanges::new(mesh, region, targets, watch));
         if changes.is_none() {
             watch(DerivationAction::RemoveByCentroid, &MeshPatch::default);
         }

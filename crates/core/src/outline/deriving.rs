@@ -4,10 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::band::Band;
-use super::changes::{FittedBand, OutlineChanges, OutlineOnLattice};
+use super::changes::{FittedBand, OutlineChanges};
 use super::corners::TurningCorners;
 use super::fitting::Fitting;
 use super::follower_making::FollowerMaking;
+use super::lengths::SharedTargets;
+use super::line::OutlineOnLattice;
 use super::{DerivedMesh, OutlineFollower};
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Cleaning, Mesh, MeshPatch, Progress};
@@ -20,6 +22,7 @@ const AT_ONCE: usize = 4096;
 pub struct MeshDerivation {
     mesh: Arc<Mesh>,
     domain: DomainOnLattice,
+    targets: Option<SharedTargets>,
     cleaning: Cleaning,
     follows: bool,
     step: DerivationStep,
@@ -41,8 +44,15 @@ enum DerivationStep {
 impl MeshDerivation {
     /// Begins to derive a mesh; `follows` asks for its nodes on the outline, to be kept in step with the
     /// mesh.
-    pub fn new(mesh: Arc<Mesh>, domain: DomainOnLattice, cleaning: Cleaning, follows: bool) -> Self {
-        Self { mesh, domain, cleaning, follows, step: DerivationStep::Begin, derived: None, follower: None }
+    pub fn new(
+        mesh: Arc<Mesh>,
+        domain: DomainOnLattice,
+        targets: Option<SharedTargets>,
+        cleaning: Cleaning,
+        follows: bool,
+    ) -> Self {
+        let step = DerivationStep::Begin;
+        Self { mesh, domain, targets, cleaning, follows, step, derived: None, follower: None }
     }
 
     /// Takes one step, which takes some milliseconds on a long coast.
@@ -52,6 +62,8 @@ impl MeshDerivation {
 
     /// Takes one step, in which a follower takes in at most `triangles` triangles.
     pub fn advance_by(&mut self, triangles: usize) -> Progress {
+        let targets = self.targets.as_ref().map(SharedTargets::targets);
+        let lattice = self.mesh.lattice();
         self.step = match (
             std::mem::replace(&mut self.step, DerivationStep::Done),
             self.domain.region_on_outline(),
@@ -65,7 +77,7 @@ impl MeshDerivation {
             }
             (_, None) => DerivationStep::Clean(None, None),
             (DerivationStep::Begin, Some(region)) => {
-                DerivationStep::Band(OutlineOnLattice::new(self.mesh.lattice(), region).corners)
+                DerivationStep::Band(OutlineOnLattice::new(lattice, region, targets).corners)
             }
             (DerivationStep::Band(corners), Some(region)) => {
                 let band = Band::new(&self.mesh, region);
@@ -73,24 +85,24 @@ impl MeshDerivation {
                 DerivationStep::Fit(corners, Box::new(Fitting::new(band, zone)))
             }
             (DerivationStep::Fit(corners, fitting), Some(region)) => {
-                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
+                let outline = OutlineOnLattice::with_corners(lattice, region, targets, corners.clone());
                 match fitting.advance(&self.mesh, &outline, &mut |_, _| {}) {
                     ControlFlow::Continue(fitting) => DerivationStep::Fit(corners, Box::new(fitting)),
                     ControlFlow::Break(fitted) => DerivationStep::Change(corners, Box::new(fitted)),
                 }
             }
             (DerivationStep::Change(corners, fitted), Some(region)) => {
-                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
+                let outline = OutlineOnLattice::with_corners(lattice, region, targets, corners.clone());
                 let patch = fitted.patch(&self.mesh, &outline);
                 DerivationStep::Measure(corners, fitted, patch)
             }
             (DerivationStep::Measure(corners, fitted, patch), Some(region)) => {
-                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
+                let outline = OutlineOnLattice::with_corners(lattice, region, targets, corners.clone());
                 let changes = fitted.with_patch(patch, &outline);
                 DerivationStep::Clean(Some(changes), self.follows.then_some((corners, fitted)))
             }
             (DerivationStep::Follow(corners, fitted, making), Some(region)) => {
-                let outline = OutlineOnLattice::with_corners(self.mesh.lattice(), region, corners.clone());
+                let outline = OutlineOnLattice::with_corners(lattice, region, targets, corners.clone());
                 let begin = || Box::new(FollowerMaking::new(&self.mesh, &self.domain, &outline, &fitted));
                 match making.unwrap_or_else(begin).advance(&self.mesh, &outline, &fitted, triangles.max(1)) {
                     ControlFlow::Continue(making) => {

@@ -3,16 +3,18 @@
 use std::ops::ControlFlow;
 
 use super::band::{Band, signs};
-use super::changes::{FittedBand, OutlineOnLattice, moved, patch};
+use super::changes::{FittedBand, moved, patch};
 use super::corners::{Pin, pins};
+use super::division::Division;
 use super::flat::{drop_flat, pinched};
 use super::guard::Guard;
+use super::line::OutlineOnLattice;
 use super::patchwork::Patchwork;
 use super::smooth::Smoother;
 use super::snap::{Crossings, OutlineSide, snapped};
 use super::stages::{DerivationAction, Watch, without_outside};
 use super::stencil::NodePlacement;
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, NumberSet};
 use crate::mesh::{Mesh, MeshPatch};
 
 /// Number of rounds of flips and moves that improve the angles.
@@ -57,7 +59,7 @@ impl Fitting {
         outline: &OutlineOnLattice,
         watch: Watch<'_>,
     ) -> ControlFlow<FittedBand, Self> {
-        let Self { band, mut zone, stage } = self;
+        let Self { band, zone, stage } = self;
         let OutlineOnLattice { region, angles, corners, .. } = outline;
         let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
         let with_cuts = |placement: &NodePlacement| as_patch(&Patchwork::new(&band, placement, angles));
@@ -95,9 +97,8 @@ impl Fitting {
                 }
             }
             FittingStage::Divide(placement, pins) => {
-                let zone = std::mem::take(&mut zone);
-                let patchwork = Patchwork::in_zone(&band, &placement, angles, zone);
-                FittingStage::Improve(Box::new(FittedPieces { patchwork, pins, placement }), 0)
+                let patchwork = Patchwork::in_zone(&band, &placement, angles, zone.clone());
+                FittedPieces { patchwork, pins, placement }.halved(mesh, &band, outline, watch, &as_patch)
             }
             FittingStage::Improve(pieces, step) => match pieces.improved(step, outline, watch, &as_patch) {
                 (pieces, Some(step)) => FittingStage::Improve(Box::new(pieces), step),
@@ -111,23 +112,44 @@ impl Fitting {
 }
 
 impl FittedPieces {
+    /// Halves the edges that are too long. Where that fails, nodes retreat, or corners are given up, and the
+    /// pieces are to be found again.
+    fn halved(
+        self,
+        mesh: &Mesh,
+        band: &Band,
+        outline: &OutlineOnLattice,
+        watch: Watch<'_>,
+        as_patch: &dyn Fn(&Patchwork) -> MeshPatch,
+    ) -> FittingStage {
+        let Self { mut patchwork, mut pins, mut placement } = self;
+        let division = division(mesh, (band, &patchwork), outline, (&mut placement, &mut pins));
+        let Some(division) = division else { return FittingStage::Retreat(placement, pins) };
+        if !division.is_empty() {
+            division.apply(band, &mut patchwork, &outline.angles);
+            watch(DerivationAction::HalveEdges, &|| as_patch(&patchwork));
+        }
+        FittingStage::Improve(Box::new(Self { patchwork, pins, placement }), 0)
+    }
+
     /// Takes a step for better angles: flips and moves in turn, and at last a pull to the outline. Returns
     /// the number of the next one.
     fn improved(
         mut self,
         step: usize,
-        OutlineOnLattice { region, lattice, angles, .. }: &OutlineOnLattice,
+        outline: &OutlineOnLattice,
         watch: Watch<'_>,
         as_patch: &dyn Fn(&Patchwork) -> MeshPatch,
     ) -> (Self, Option<usize>) {
-        let smoother = Smoother { region, angles, extent: lattice.extent() };
+        let OutlineOnLattice { region, lattice, angles, lengths, .. } = outline;
+        let smoother = Smoother { region, angles, lengths, extent: lattice.extent() };
         let action = match step {
             step if step == 2 * ROUNDS => {
                 smoother.pull(&mut self.patchwork);
                 DerivationAction::PullToOutline
             }
             step if step % 2 == 0 => {
-                self.patchwork.flip_edges(angles);
+                self.patchwork.flip_edges(outline);
                 DerivationAction::FlipEdges
             }
             _ => {
@@ -193,9 +215,54 @@ fn retreat(
     if stuck.is_empty() {
         return true;
     }
-    let is_stuck = |pin: &Pin| stuck.binary_search(&pin.node).is_ok();
+    give_up(&stuck, placement, pins);
+    false
+}
+
+/// Gives up corners with their nodes, and begins the retreat from the start.
+fn give_up(stuck: &[u32], placement: &mut NodePlacement, pins: &mut Vec<Pin>) {
+    let is_stuck = |pin: &Pin| stuck.contains(&pin.node);
     pins.iter().filter(|pin| is_stuck(pin)).for_each(|pin| pin.undo(placement));
     pins.retain(|pin| !is_stuck(pin));
     placement.advance_all();
-    false
+}
+
+/// Returns the division of edges that are too long. Where it would fail, nodes retreat, or corners are given
+/// up; then it returns `None`, and the pieces are to be found again.
+fn division(
+    mesh: &Mesh,
+    (band, patchwork): (&Band, &Patchwork),
+    outline: &OutlineOnLattice,
+    (placement, pins): (&mut NodePlacement, &mut Vec<Pin>),
+) -> Option<Division> {
+    let mut excused = NumberSet::default();
+    loop {
+        let division = Division::new(mesh, (band, placement), patchwork, outline, &excused);
+        let failing = division.failing(patchwork, outline, pins);
+        let (mut back, mut stuck) = (Vec::new(), Vec::new());
+        for pieces in &failing {
+            let nodes = pieces.iter().flat_map(|&t| patchwork.triangles.corners[t as usize]);
+            let can: Vec<u32> = nodes.clone().filter(|&v| placement.can_retreat(v)).collect();
+            let pinned = nodes.filter(|v| pins.binary_search_by_key(v, |pin| pin.node).is_ok());
+            let pinned: Vec<u32> = pinned.filter(|_| can.is_empty()).collect();
+            if can.is_empty() && pinned.is_empty() {
+                excused.extend(pieces);
+            }
+            back.extend(can);
+            stuck.extend(pinned);
+        }
+        if !back.is_empty() {
+            back.sort_unstable();
+            back.dedup();
+            back.into_iter().for_each(|v| placement.retreat(v));
+            return None;
+        }
+        if !stuck.is_empty() {
+            give_up(&stuck, placement, pins);
+            return None;
+        }
+        if failing.is_empty() {
+            return Some(division);
+        }
+    }
 }

@@ -24,14 +24,16 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::band::{GRAIN, RINGS};
-use super::changes::{FittedBand, OutlineChanges, OutlineFit, OutlineOnLattice, beside};
+use super::changes::{FittedBand, OutlineChanges, OutlineFit, beside};
 use super::corners::TurningCorners;
 use super::follower_making::FollowerMaking;
+use super::lengths::EdgeTargets;
+use super::line::OutlineOnLattice;
 use super::numbers::{Numbers, Pages};
 use super::window::{LOCAL_RINGS, Rings, SLACK, Window, expected};
 use super::writer::Writer;
 use crate::domain::{DomainOnLattice, RegionOnLattice};
-use crate::geometry::{LatticePoint, NumberMap};
+use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
 use crate::mesh::{Changes, DrawnPiece, Mesh, MeshPatch, NodeId, PatchTriangle, Replacement, TriangleId};
 
 /// A place on the lattice as one number: of a node, or three times the centroid of a triangle. No triangle
@@ -123,9 +125,9 @@ pub struct OutlineFollower {
 
 impl OutlineFollower {
     /// Derives the nodes on the outline of a domain; `None` if the domain does not require them.
-    pub fn new(mesh: &Mesh, domain: &DomainOnLattice) -> Option<Self> {
+    pub fn new(mesh: &Mesh, domain: &DomainOnLattice, targets: Option<EdgeTargets>) -> Option<Self> {
         let region = domain.region_on_outline()?;
-        let outline = OutlineOnLattice::new(mesh.lattice(), region);
+        let outline = OutlineOnLattice::new(mesh.lattice(), region, targets);
         let fitted = FittedBand::whole(mesh, region, &outline, &mut |_, _| {});
         let making = FollowerMaking::new(mesh, domain, &outline, &fitted);
         making.advance(mesh, &outline, &fitted, usize::MAX).break_value()
@@ -152,15 +154,26 @@ impl OutlineFollower {
         follower
     }
 
-    /// Takes in what changed in the mesh, and returns the entries whose pieces may have changed, in ascending
-    /// order.
-    pub fn update(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<TriangleId> {
-        self.update_few(mesh, changes, usize::MAX).expect("there is no limit")
+    /// Takes in what changed in the mesh, and where targets may have changed, and returns the entries whose
+    /// pieces may have changed, in ascending order.
+    pub fn update(
+        &mut self,
+        mesh: &Mesh,
+        targets: Option<EdgeTargets>,
+        changes: &Changes,
+    ) -> Vec<TriangleId> {
+        self.update_few(mesh, targets, changes, usize::MAX).expect("there is no limit")
     }
 
     /// [`Self::update`], unless more triangles than `most` came near the outline. Then it returns `None`, and
     /// the nodes are no longer in step with the mesh.
-    pub fn update_few(&mut self, mesh: &Mesh, changes: &Changes, most: usize) -> Option<Vec<TriangleId>> {
+    pub fn update_few(
+        &mut self,
+        mesh: &Mesh,
+        targets: Option<EdgeTargets>,
+        changes: &Changes,
+        most: usize,
+    ) -> Option<Vec<TriangleId>> {
         let domain = self.domain.clone();
         let Some(region) = domain.region_on_outline() else { return Some(Vec::new()) };
         let Entries { fresh, mut rewritten, mut stale } = self.follow_entries(mesh, changes);
@@ -168,17 +181,32 @@ impl OutlineFollower {
             |id: &TriangleId| mesh.corners(*id).iter().any(|&p| self.nodes.contains_key(&node_place(p)));
         let fresh = fresh.into_par_iter().with_min_len(GRAIN);
         let relevant = fresh.filter(|id| known(id) || touches(mesh, region, *id));
-        let relevant: Vec<TriangleId> = relevant.collect();
+        let mut relevant: Vec<TriangleId> = relevant.collect();
+        relevant.extend(self.retargeted(mesh, &changes.retargeted));
         if relevant.len() > most {
             return None;
         }
         if !relevant.is_empty() {
-            let outline = OutlineOnLattice::with_corners(mesh.lattice(), region, self.corners.clone());
+            let outline =
+                OutlineOnLattice::with_corners(mesh.lattice(), region, targets, self.corners.clone());
             self.derive_around(mesh, &outline, &relevant, &mut rewritten, &mut stale);
         }
         rewritten.par_sort_unstable();
         rewritten.dedup();
         Some(rewritten)
+    }
+
+    /// Returns the kept triangles in places where targets may have changed.
+    fn retargeted(&self, mesh: &Mesh, areas: &[LatticeRect]) -> Vec<TriangleId> {
+        if areas.is_empty() {
+            return Vec::new();
+        }
+        let is_in_area = |id: &TriangleId| areas.iter().any(|area| area.touches(mesh.corners(*id)));
+        let kept = self.seats.par_iter().filter(|(_, seat)| !seat.is_beside);
+        let kept = kept.map(|(&index, _)| TriangleId::from_index(index as usize));
+        let mut found: Vec<TriangleId> = kept.filter(is_in_area).collect();
+        found.par_sort_unstable();
+        found
     }
 
     /// Finds kept triangles at their new entries. Those that are gone are forgotten.
@@ -302,8 +330,8 @@ impl OutlineFollower {
         {
             self.write_beside(mesh, id, inside);
         }
-        let homes = fitted.band.points.iter().chain(&fitted.placement.homes[fitted.band.points.len()..]);
-        let present: NumberMap<PlaceKey, ()> = homes.map(|&home| (node_place(home), ())).collect();
+        let nodes = 0..fitted.patchwork.points.len() as u32;
+        let present: NumberMap<PlaceKey, ()> = nodes.map(|v| (node_place(fitted.home(v)), ())).collect();
         for place in stale.drain(..).filter(|place| !present.contains_key(place)) {
             self.nodes.remove(&place);
         }

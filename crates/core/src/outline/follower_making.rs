@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::OutlineFollower;
-use super::changes::{FittedBand, OutlineOnLattice};
+use super::changes::FittedBand;
+use super::line::OutlineOnLattice;
 use super::writer::{Writer, Written};
 use crate::domain::DomainOnLattice;
 use crate::mesh::Mesh;

@@ -1,15 +1,16 @@
 //! A mesh with the nodes of its boundary on the outline of the domain.
 //!
 //! The mesh of right-angled triangles does not change. The mesh that is shown and exported is derived from
-//! it: a pure function of the mesh and the outline, independent of the order of the mesh's entries.
+//! it: a pure function of the mesh, the outline and h̄, independent of the order of the mesh's entries.
 //!
 //! The idea is that of isosurface stuffing \[LabelleShewchuk2007\], with moves as large as half an edge: each
 //! node has a sign, inside or outside. Where the outline crosses an edge between two signs, the end nearer to
 //! the crossing moves there ([`snap`]); edges that no end can leave are cut ([`stencil`]). With signs alone,
 //! the domain never touches itself; moves preserve that, once flat triangles are left out ([`flat`]). Sharp
 //! corners of the outline become nodes ([`corners`]). Where an angle is too small, nodes go back towards home
-//! ([`guard`]). Then edges are flipped ([`patchwork`]) and nodes shifted ([`smooth`]), as far as that makes
-//! the smallest angles larger.
+//! ([`guard`]). Where an edge is longer than its target, it is halved ([`division`]). Then edges are
+//! flipped ([`patchwork`]) and nodes shifted ([`smooth`]), as far as that makes the smallest angles larger
+//! and no edge longer than its target.
 //!
 //! Nodes end on lattice points, like all nodes of a mesh: at most half a lattice step beside the outline,
 //! whose own corners are lattice points, too ([`RegionOnLattice`](crate::domain::RegionOnLattice)).
@@ -25,6 +26,10 @@
 //! of the corner. That nodes lie *on* the outline is not guaranteed: those that retreated may be off by half
 //! an edge. Features thinner than the triangles vanish or merge. A triangle needs at least 16 lattice steps
 //! along its legs.
+//!
+//! Lengths. No edge is longer than h̄ at any point of the triangles beside it ([`EdgeTargets`]), as no edge
+//! of the mesh is: what lies in a triangle of the mesh that meets its target meets it, too. In triangles of
+//! the mesh that are larger than their target, edges may have any length.
 
 mod angles;
 mod triangulation;
@@ -35,7 +40,10 @@ mod stencil;
 mod flat;
 mod corners;
 mod guard;
+mod lengths;
+mod line;
 mod patchwork;
+mod division;
 mod smooth;
 mod stages;
 mod changes;
@@ -53,4 +61,5 @@ pub use check::DerivedViolation;
 pub use derived::DerivedMesh;
 pub use deriving::MeshDerivation;
 pub use follower::OutlineFollower;
+pub use lengths::{EdgeTargets, SharedTargets};
 pub use stages::{DerivationAction, DerivationStage, derivation_stages};

@@ -5,6 +5,8 @@ use rayon::prelude::*;
 use super::angles::{Angles, COT_5, COT_30};
 use super::band::{Band, GRAIN};
 use super::flat::{boundary_edges, has_sector};
+use super::lengths::LengthAnswers;
+use super::line::OutlineOnLattice;
 use super::stencil::NodePlacement;
 use super::triangulation::{NONE, Triangulation};
 use crate::geometry::{LatticePoint, NumberSet};
@@ -60,8 +62,10 @@ pub(super) struct Patchwork {
     gaps: Vec<Gap>,
     /// For each piece, the triangle of the band that it replaces. A flip keeps the owners of the two pieces.
     pub(super) owners: Vec<u32>,
-    /// The nodes of the band, then the nodes in cut edges.
+    /// The nodes of the band, then the nodes in cut edges, then the middles of divided edges.
     pub(super) points: Vec<LatticePoint>,
+    /// The ends of each divided edge.
+    pub(super) divided: Vec<[u32; 2]>,
     /// For each node, whether it was moved onto the outline.
     pub(super) on_outline: Vec<bool>,
     /// For each node, whether it is at a corner of the outline.
@@ -82,7 +86,7 @@ pub(super) struct Patchwork {
 
 /// The pieces of some triangles of the band, in their order.
 #[derive(Default)]
-struct BandPieces {
+pub(super) struct BandPieces {
     corners: Vec<[u32; 3]>,
     inside: Vec<bool>,
     owners: Vec<u32>,
@@ -111,11 +115,17 @@ impl BandPieces {
     fn push(&mut self, band: &Band, placement: &NodePlacement, angles: &Angles, triangle: u32) {
         let mut gap_of_triangle = None;
         for piece in placement.pieces(band, triangle, angles).into_iter().flatten() {
-            self.corners.push(piece.corners);
-            self.inside.push(piece.inside);
-            self.owners.push(triangle);
-            self.gaps.push(*gap_of_triangle.get_or_insert_with(|| gap(band, placement, triangle)));
+            let gap = *gap_of_triangle.get_or_insert_with(|| gap(band, placement, triangle));
+            self.add(piece.corners, piece.inside, triangle, gap);
         }
+    }
+
+    /// Adds a piece of a triangle of the band, after those of former triangles.
+    pub(super) fn add(&mut self, corners: [u32; 3], inside: bool, owner: u32, gap: Gap) {
+        self.corners.push(corners);
+        self.inside.push(inside);
+        self.owners.push(owner);
+        self.gaps.push(gap);
     }
 
     /// Finds the pieces across the edges: other pieces of the same triangle, or of those across its edges.
@@ -161,23 +171,55 @@ impl Patchwork {
             zone.push(ends.iter().any(|&v| zone[v as usize]));
         }
         let nodes = 0..placement.homes.len() as u32;
-        let pieces = BandPieces::new(band, placement, angles);
-        let (across, count) = (pieces.across(band), pieces.owners.len());
-        Self {
-            triangles: Triangulation::new(nodes.len(), pieces.corners, across),
-            inside: pieces.inside,
-            gaps: pieces.gaps,
-            owners: pieces.owners,
+        let mut patchwork = Self {
+            triangles: Triangulation::default(),
+            inside: Vec::new(),
+            gaps: Vec::new(),
+            owners: Vec::new(),
             points: nodes.clone().map(|v| placement.point(v)).collect(),
+            divided: Vec::new(),
             on_outline: nodes.map(|v| placement.is_on_outline(v)).collect(),
             pinned: placement.pinned.clone(),
             acted: placement.acted.clone(),
             zone,
             may_move: vec![true; placement.homes.len()],
-            may_flip: vec![true; count],
+            may_flip: Vec::new(),
             poor: Vec::new(),
-            changed: (0..count as u32).collect(),
-        }
+            changed: Vec::new(),
+        };
+        patchwork.set_pieces(band, BandPieces::new(band, placement, angles));
+        patchwork
+    }
+
+    /// Takes other pieces, of the same nodes.
+    pub(super) fn set_pieces(&mut self, band: &Band, pieces: BandPieces) {
+        let (across, count) = (pieces.across(band), pieces.owners.len());
+        self.triangles = Triangulation::new(self.points.len(), pieces.corners, across);
+        (self.inside, self.gaps, self.owners) = (pieces.inside, pieces.gaps, pieces.owners);
+        self.may_flip = vec![true; count];
+        self.changed = (0..count as u32).collect();
+    }
+
+    /// Adds a node in the middle of an edge.
+    pub(super) fn push_middle(&mut self, ends: [u32; 2], at: LatticePoint) {
+        let zone = ends.iter().any(|&v| self.zone[v as usize]);
+        self.points.push(at);
+        self.divided.push(ends);
+        self.on_outline.push(false);
+        self.pinned.push(false);
+        self.acted.push(true);
+        self.zone.push(zone);
+        self.may_move.push(true);
+    }
+
+    /// Returns the condition for a piece outside.
+    pub(super) fn gap(&self, piece: u32) -> Gap {
+        self.gaps[piece as usize]
+    }
+
+    /// Returns whether a piece has a node where steps move nodes and flip edges.
+    pub(super) fn is_in_zone(&self, piece: u32) -> bool {
+        self.triangles.corners[piece as usize].iter().any(|&v| self.zone[v as usize])
     }
 
     /// Notes that a piece got other corners, or that one of its corners moved.
@@ -210,8 +252,8 @@ impl Patchwork {
         poor.append(&mut self.changed);
         poor.sort_unstable();
         poor.dedup();
-        let is_in_zone = |t: u32| self.triangles.corners[t as usize].iter().any(|&v| self.zone[v as usize]);
-        let is_poor = |&t: &u32| self.inside[t as usize] && is_in_zone(t) && self.worst(angles, t) > COT_30;
+        let is_poor =
+            |&t: &u32| self.inside[t as usize] && self.is_in_zone(t) && self.worst(angles, t) > COT_30;
         self.poor = poor.into_par_iter().with_min_len(GRAIN).filter(is_poor).collect();
         &self.poor
     }
@@ -234,9 +276,9 @@ impl Patchwork {
 
     /// Flips edges between pieces inside where the smaller angle of the two becomes larger. The flip with the
     /// greatest gain comes first, and each piece is flipped once in a pass.
-    pub(super) fn flip_edges(&mut self, angles: &Angles) {
+    pub(super) fn flip_edges(&mut self, outline: &OutlineOnLattice) {
         for _ in 0..PASSES {
-            let flips = self.flips(angles);
+            let flips = self.flips(outline);
             if flips.is_empty() {
                 return;
             }
@@ -261,11 +303,17 @@ impl Patchwork {
     }
 
     /// Returns the flips that help, the greatest gain first: the gain, the piece, and the place of the edge.
-    fn flips(&mut self, angles: &Angles) -> Vec<(f64, u32, usize)> {
+    fn flips(
+        &mut self,
+        OutlineOnLattice { angles, lengths, .. }: &OutlineOnLattice,
+    ) -> Vec<(f64, u32, usize)> {
         self.poor(angles);
-        let gains_of = |t: u32| [0, 1, 2].map(|i| self.gain_of_flip(angles, t, i));
+        let gains_of = |answers: &mut LengthAnswers, t: u32| {
+            (t, [0, 1, 2].map(|i| self.gain_of_flip(angles, answers, t, i)))
+        };
         let tried = self.poor.par_iter().with_min_len(GRAIN).filter(|&&t| self.may_flip[t as usize]);
-        let tried: Vec<(u32, [Option<f64>; 3])> = tried.map(|&t| (t, gains_of(t))).collect();
+        let tried = tried.map_init(|| lengths.answers(), |answers, &t| gains_of(answers, t));
+        let tried: Vec<(u32, [Option<f64>; 3])> = tried.collect();
         let mut flips = Vec::new();
         for (t, gains) in tried {
             self.may_flip[t as usize] = gains.iter().any(Option::is_some);
@@ -277,7 +325,7 @@ impl Patchwork {
 
     /// Returns by how much the flip of an edge lowers the larger cotangent of the two pieces, or `None` if it
     /// does not.
-    fn gain_of_flip(&self, angles: &Angles, t: u32, i: usize) -> Option<f64> {
+    fn gain_of_flip(&self, angles: &Angles, answers: &mut LengthAnswers, t: u32, i: usize) -> Option<f64> {
         let across = self.triangles.across[t as usize][i];
         if across == NONE || !self.inside[across as usize] {
             return None;
@@ -285,9 +333,13 @@ impl Patchwork {
         let [a, b, c] = self.triangles.starting_at(t, i);
         let j = 3 - self.triangles.place(across, b) - self.triangles.place(across, c);
         let d = self.triangles.corners[across as usize][j];
-        let [after, before] = angles.diagonals([a, b, d, c].map(|v| self.points[v as usize]));
+        let [a, b, d, c] = [a, b, d, c].map(|v| self.points[v as usize]);
+        let [after, before] = angles.diagonals([a, b, d, c]);
         let gain = before - after;
-        (after.is_finite() && gain > 1e-9).then_some(gain)
+        let former = [[a, b, c], [b, d, c]];
+        let mut allowed = |piece| former.iter().any(|&former| answers.allow(piece, former));
+        let helps = after.is_finite() && gain > 1e-9;
+        (helps && allowed([a, b, d]) && allowed([a, d, c])).then_some(gain)
     }
 }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::angles::{Angles, COT_20};
 use super::band::GRAIN;
+use super::lengths::{LengthAnswers, LengthRule};
 use super::patchwork::Patchwork;
 use super::snap::rounded;
 use crate::domain::{OutlineNearby, RegionOnLattice};
@@ -36,15 +37,16 @@ const FEWEST_SEARCHES: usize = 32;
 pub(super) struct Smoother<'a> {
     pub(super) region: &'a RegionOnLattice,
     pub(super) angles: &'a Angles,
+    pub(super) lengths: &'a LengthRule<'a>,
     /// The upper right corner of the lattice.
     pub(super) extent: LatticePoint,
 }
 
 /// What a thread uses again from search to search.
-#[derive(Default)]
-struct Scratch {
+struct Scratch<'a> {
     star: Vec<(u32, usize)>,
     outline: OutlineNearby,
+    answers: LengthAnswers<'a>,
 }
 
 /// A move of a node that would help.
@@ -56,6 +58,10 @@ struct Move {
 }
 
 impl Smoother<'_> {
+    fn scratch(&self) -> Scratch<'_> {
+        Scratch { star: Vec::new(), outline: OutlineNearby::default(), answers: self.lengths.answers() }
+    }
+
     /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest; nodes
     /// on the boundary move along the outline. Of adjacent nodes, only the one that gains most moves.
     pub(super) fn smooth(&self, patchwork: &mut Patchwork) {
@@ -67,7 +73,7 @@ impl Smoother<'_> {
         nodes.retain(|&node| patchwork.zone[node as usize] && patchwork.may_move[node as usize]);
         let searches = nodes.par_iter().with_min_len(FEWEST_SEARCHES);
         let found =
-            searches.map_init(Scratch::default, |scratch, &node| self.best_move(patchwork, node, scratch));
+            searches.map_init(|| self.scratch(), |scratch, &node| self.best_move(patchwork, node, scratch));
         let found: Vec<Option<Move>> = found.collect();
         for (&node, best) in nodes.iter().zip(&found) {
             patchwork.may_move[node as usize] = best.is_some();
@@ -93,7 +99,7 @@ impl Smoother<'_> {
         for _ in 0..PULL_ROUNDS {
             let searches = off.par_iter().with_min_len(FEWEST_SEARCHES);
             let moves = searches
-                .map_init(Scratch::default, |scratch, &v| self.move_to_outline(patchwork, v, scratch));
+                .map_init(|| self.scratch(), |scratch, &v| self.move_to_outline(patchwork, v, scratch));
             let moves: Vec<Move> = moves.flatten_iter().collect();
             if moves.is_empty() {
                 return;
@@ -129,7 +135,7 @@ impl Smoother<'_> {
     }
 
     fn best_move(&self, patchwork: &Patchwork, node: u32, scratch: &mut Scratch) -> Option<Move> {
-        let Scratch { star, outline } = scratch;
+        let Scratch { star, outline, answers } = scratch;
         patchwork.triangles.star(node, star);
         if patchwork.pinned[node as usize] || patchwork.is_on_frame(star) {
             return None;
@@ -150,7 +156,9 @@ impl Smoother<'_> {
                 let to = from + length * direction / step;
                 let to = if on_boundary { outline.nearest(to, mean) } else { Some(to) };
                 let Some(to) = to.map(|to| rounded(to, self.extent)) else { continue };
-                if let Some(worst) = self.worst_around(patchwork, star, to).filter(|&worst| worst < best.0) {
+                if let Some(worst) = self.worst_around(patchwork, star, to).filter(|&worst| worst < best.0)
+                    && allows_move(patchwork, star, to, answers)
+                {
                     best = (worst, to);
                 }
             }
@@ -161,7 +169,7 @@ impl Smoother<'_> {
     }
 
     fn move_to_outline(&self, patchwork: &Patchwork, node: u32, scratch: &mut Scratch) -> Option<Move> {
-        let Scratch { star, outline } = scratch;
+        let Scratch { star, outline, answers } = scratch;
         patchwork.triangles.star(node, star);
         if star.is_empty() || patchwork.is_on_frame(star) || !patchwork.is_on_boundary(star) {
             return None;
@@ -174,7 +182,8 @@ impl Smoother<'_> {
         let to = rounded(to, self.extent);
         let worst = self.worst_around(patchwork, star, to)?;
         let gain = self.angles.vector(home, to).length();
-        (worst <= now.max(COT_20)).then_some(Move { node, to, gain, on_outline: true })
+        let is_good = worst <= now.max(COT_20) && allows_move(patchwork, star, to, answers);
+        is_good.then_some(Move { node, to, gain, on_outline: true })
     }
 
     /// Returns the cotangent of the smallest angle of the pieces inside around a node, if the node were at
@@ -203,4 +212,20 @@ impl Smoother<'_> {
         });
         lengths.sum::<f64>() / star.len() as f64
     }
+}
+
+/// Returns whether no edge around a node would be too long if the node were at `to`.
+fn allows_move(
+    patchwork: &Patchwork,
+    star: &[(u32, usize)],
+    to: LatticePoint,
+    answers: &mut LengthAnswers,
+) -> bool {
+    let mut inside = star.iter().filter(|(t, _)| patchwork.inside[*t as usize]);
+    inside.all(|&(t, i)| {
+        let former = patchwork.corners(t);
+        let mut points = former;
+        points[i] = to;
+        answers.allow(points, former)
+    })
 }

@@ -1,6 +1,7 @@
 //! The stages in which a mesh becomes the derived one, for whoever wants to watch.
 
 use super::DerivedMesh;
+use super::lengths::EdgeTargets;
 use crate::domain::DomainOnLattice;
 use crate::geometry::LatticePoint;
 use crate::mesh::{Cleaning, Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
@@ -18,8 +19,10 @@ pub enum DerivationAction {
     CutEdges,
     /// Moves nodes to sharp corners of the outline.
     MoveToCorners,
-    /// Moves nodes back towards home where an angle is too small.
+    /// Moves nodes back towards home where an angle is too small, or an edge too long.
     Retreat,
+    /// Halves edges that are longer than their target.
+    HalveEdges,
     /// Flips edges for larger angles.
     FlipEdges,
     /// Shifts nodes for larger angles.
@@ -44,9 +47,14 @@ pub(super) type Watch<'a> = &'a mut dyn FnMut(DerivationAction, &dyn Fn() -> Mes
 
 /// Returns the stages of [`DerivedMesh::new`] that change anything. After the last one, the mesh is the
 /// derived one.
-pub fn derivation_stages(mesh: &Mesh, domain: &DomainOnLattice, cleaning: &Cleaning) -> Vec<DerivationStage> {
+pub fn derivation_stages(
+    mesh: &Mesh,
+    domain: &DomainOnLattice,
+    targets: Option<EdgeTargets>,
+    cleaning: &Cleaning,
+) -> Vec<DerivationStage> {
     let mut stages: Vec<DerivationStage> = Vec::new();
-    DerivedMesh::watched(mesh, domain, cleaning, &mut |action, patch| {
+    DerivedMesh::watched(mesh, domain, targets, cleaning, &mut |action, patch| {
         let patch = patch();
         let has_changed = match stages.last() {
             Some(former) => former.patch != patch,

@@ -122,6 +122,23 @@ impl NodePlacement {
         LatticePoint::new(along(home.x, goal.x), along(home.y, goal.y))
     }
 
+    /// Returns the middle of an edge, rounded towards its home: so mirrored outlines have mirrored nodes.
+    pub(super) fn middle(&self, ends: [u32; 2]) -> LatticePoint {
+        let [p, q] = ends.map(|v| self.point(v));
+        let home = self.home_of_middle(ends);
+        let between = |p: u32, q: u32, home: u32| {
+            let home = i64::from(home);
+            (home + (i64::from(p) + i64::from(q) - 2 * home) / 2) as u32
+        };
+        LatticePoint::new(between(p.x, q.x, home.x), between(p.y, q.y, home.y))
+    }
+
+    /// Returns the middle of an edge between nodes at home.
+    pub(super) fn home_of_middle(&self, ends: [u32; 2]) -> LatticePoint {
+        let [p, q] = ends.map(|v| self.homes[v as usize]);
+        LatticePoint::new(p.x.midpoint(q.x), p.y.midpoint(q.y))
+    }
+
     /// Returns whether a node has arrived at its goal on the outline.
     pub(super) fn is_on_outline(&self, node: u32) -> bool {
         let can_move = self.sides.get(node as usize).is_none_or(|&side| side == OutlineSide::On);

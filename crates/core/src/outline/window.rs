@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::band::{Band, GRAIN, RINGS};
-use super::changes::{FittedBand, OutlineOnLattice};
+use super::changes::FittedBand;
+use super::line::OutlineOnLattice;
 use super::numbers::{Numbers, Pages};
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, NodeId, TriangleId};

@@ -1,7 +1,8 @@
 //! Writes what is derived into what is kept of it.
 
-use super::changes::{FittedBand, OutlineOnLattice, PiecesByTriangle};
+use super::changes::{FittedBand, PiecesByTriangle};
 use super::follower::{KeptNode, KeptPiece, KeptTriangle, OutlineFollower, Seat, node_place, triangle_place};
+use super::line::OutlineOnLattice;
 use super::triangulation::NONE;
 use crate::mesh::Mesh;
 
@@ -56,9 +57,10 @@ impl<'a> Writer<'a> {
     /// Writes a triangle of the band, and its nodes.
     pub(super) fn write(&mut self, follower: &mut OutlineFollower, triangle: u32) {
         let FittedBand { band, patchwork, placement, .. } = self.fitted;
-        let home = |v: u32| node_place(placement.homes[v as usize]);
+        let home = |v: u32| node_place(self.fitted.home(v));
         let pieces =
             self.written.pieces.replacement(self.mesh, band, patchwork, &self.outline.angles, triangle);
+        let of_pieces: Vec<u32> = pieces.iter().flatten().flat_map(|(_, corners)| *corners).collect();
         let kept_piece = |(piece, corners): (u32, [u32; 3])| KeptPiece {
             corners: corners.map(home),
             on_boundary: self.on_boundary(piece, corners),
@@ -73,7 +75,7 @@ impl<'a> Writer<'a> {
         };
         follower.keep(id, KeptTriangle { id: Some(id), corners: corners.map(home), pieces, seat });
         let cuts = placement.cuts[triangle as usize];
-        for v in corners.into_iter().chain(cuts).filter(|&v| v != NONE) {
+        for v in corners.into_iter().chain(cuts).chain(of_pieces).filter(|&v| v != NONE) {
             self.write_node(follower, v);
         }
     }
@@ -100,10 +102,10 @@ impl<'a> Writer<'a> {
         if std::mem::replace(&mut self.written.is_node_written[v], true) {
             return;
         }
-        let FittedBand { patchwork, placement, pins, .. } = self.fitted;
+        let FittedBand { patchwork, pins, .. } = self.fitted;
         let pin = pins.binary_search_by_key(&node, |pin| pin.node);
         let kept = KeptNode {
-            home: placement.homes[v],
+            home: self.fitted.home(node),
             at: patchwork.points[v],
             acts: self.written.acted.get(v).is_some_and(|&acts| acts),
             fit: self.fitted.fit_of(self.outline, node, &mut self.written.star),

@@ -27,7 +27,7 @@ struct Built {
 impl Built {
     fn new(domain: &Domain, boundary: BoundaryTreatment, spacing: f64, target: &str) -> Self {
         let built = formula_mesh(domain, spacing, boundary, target);
-        let derived = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::NONE);
+        let derived = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::NONE);
         Self { built, derived }
     }
 

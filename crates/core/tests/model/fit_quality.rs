@@ -131,7 +131,7 @@ fn holes_and_distances_are_those_of_the_exported_triangles() {
                 built => built.unwrap(),
             };
             let cleaning = &cleanings[random.usize(..3)];
-            let derived = DerivedMesh::new(&built.mesh, &built.domain, cleaning);
+            let derived = DerivedMesh::new(&built.mesh, &built.domain, None, cleaning);
             let extract = derived.extract(&built.mesh);
             if extract.triangles().is_empty() {
                 continue;

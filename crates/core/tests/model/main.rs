@@ -46,6 +46,7 @@ mod random_coast;
 mod random_costs;
 mod project_limits;
 mod remade_prices;
+mod promise;
 mod replay;
 #[path = "../../../../tests/shared/runs.rs"]
 mod runs;

@@ -36,7 +36,7 @@ fn mesh_of_image(
     let image: Ring = ring.iter().map(|&p| map(p)).collect();
     let domain = Domain::of_polygons(&[vec![image]]).unwrap().with_bounds(frame);
     let built = formula_mesh(&domain, spacing, BoundaryTreatment::OnOutline { diameter }, "100");
-    let derived = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::NONE);
+    let derived = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::NONE);
     let extract = derived.extract(&built.mesh);
     let nodes: Vec<DVec2> = extract.world_nodes().collect();
     // Both maps are their own inverses.

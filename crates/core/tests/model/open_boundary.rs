@@ -44,7 +44,7 @@ fn a_coast_along_its_own_bounding_rectangle_is_not_open() {
     for outline in [vec![island()], vec![island(), lagoon]] {
         let domain = Domain::of_polygons(&[outline]).unwrap();
         let built = formula_mesh(&domain, 0.1, BoundaryTreatment::OnOutline { diameter: 0.05 }, "1");
-        let derived = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::NONE);
+        let derived = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::NONE);
         let extract = derived.extract(&built.mesh);
         let boundary = MeshBoundary::new(&extract, &domain, &BoundaryMarks::default());
         let names: Vec<&str> = boundary.pieces().list().iter().map(|piece| piece.name.as_str()).collect();
@@ -129,7 +129,7 @@ fn sides_of_a_box_of_degrees_are_open_in_every_plane() {
             let spacing = domain.bounds.size().max_element() / 8.0;
             let treatment = BoundaryTreatment::OnOutline { diameter: 0.5 * spacing };
             let built = formula_mesh(&domain, spacing, treatment, "1e9");
-            let derived = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::NONE);
+            let derived = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::NONE);
             let extract = derived.extract(&built.mesh);
             let boundary = MeshBoundary::new(&extract, &domain, &BoundaryMarks::default());
             let on_sides = |node: usize| {

@@ -25,7 +25,7 @@ fn built(domain: &Domain, spacing: f64, diameter: f64, target: &str) -> BuiltMes
 }
 
 fn derived(mesh: &Mesh, built: &BuiltMesh) -> DerivedMesh {
-    DerivedMesh::new(mesh, &built.domain, &Cleaning::NONE)
+    DerivedMesh::new(mesh, &built.domain, None, &Cleaning::NONE)
 }
 
 /// The measurements of the referee.
@@ -269,7 +269,7 @@ fn the_largest_part_stays_as_it_is_and_the_others_go() {
             (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         };
         let area = |part: &[[[u32; 2]; 3]]| part.iter().map(doubled).sum::<i128>();
-        let outline = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::FOR_SOLVERS);
+        let outline = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::FOR_SOLVERS);
         let removed = outline.removed();
         let extract = outline.extract(&built.mesh);
         let after = parts(&extract);
@@ -459,7 +459,7 @@ fn points_are_found_in_the_triangles_that_files_have() {
 fn pieces_and_the_triangles_that_they_do_not_replace_are_the_mesh() {
     for seed in 3000..3010 {
         let (_, built, _) = case(seed);
-        let outline = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::FOR_SOLVERS);
+        let outline = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::FOR_SOLVERS);
         let extract = outline.extract(&built.mesh);
         let mut pieces = PatchPieces::new(&built.mesh, outline.patch(), &extract);
         let drawn = |pieces: &PatchPieces| {
@@ -484,6 +484,7 @@ fn pieces_and_the_triangles_that_they_do_not_replace_are_the_mesh() {
         let all = Changes {
             nodes: Vec::new(),
             triangles: std::iter::once(0..built.mesh.raw_triangle_count()).collect(),
+            ..Changes::default()
         };
         assert!(!pieces.retire(&built.mesh, &all).is_empty());
         let moved: HashMap<NodeId, LatticePoint> = outline.patch().moved.iter().copied().collect();

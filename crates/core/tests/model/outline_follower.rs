@@ -4,7 +4,7 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
-use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::layers::{Layer, LayerKind, PaintLayers};
 use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFollower};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::geometry::LatticePoint;
@@ -63,9 +63,14 @@ fn pieces_of(mesh: &Mesh, derived: &DerivedMesh) -> PatchPieces {
 }
 
 /// Returns the nodes on the outline of a mesh, and its pieces, derived in steps of random sizes.
-fn derived_in_steps(follower: &Follower, random: &mut Rng) -> (OutlineFollower, PatchPieces) {
+fn derived_in_steps(
+    follower: &Follower,
+    paint: &PaintLayers,
+    random: &mut Rng,
+) -> (OutlineFollower, PatchPieces) {
     let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
-    let mut derivation = MeshDerivation::new(mesh, domain, Cleaning::NONE, true);
+    let targets = follower.shared_targets(paint);
+    let mut derivation = MeshDerivation::new(mesh, domain, targets, Cleaning::NONE, true);
     while derivation.advance_by(random.usize(..100)) == Progress::More {}
     let pieces = pieces_of(follower.mesh(), &derivation.take_derived().unwrap());
     (derivation.take_follower().unwrap(), pieces)
@@ -94,13 +99,15 @@ impl Scene {
         let diameter = size * 0.012 * 4f64.powf(random.f64());
         let mut settings = Settings::for_domain("coast".into(), domain);
         settings.boundary = BoundaryTreatment::OnOutline { diameter };
-        settings.layers = Layer::default_stack(LayerKind::constant(0.2 * size));
+        // Edges that are too long, or none.
+        let target = if seed % 2 == 0 { (0.8 + random.f64()) * diameter } else { 0.2 * size };
+        settings.layers = Layer::default_stack(LayerKind::constant(target));
         let finest = 0.2 * diameter;
         (settings.transfer.h_min, settings.transfer.h_risk) = (finest, finest);
         let mut document = Document::new(settings, None).unwrap();
         let mut follower = Follower::new(&mut document).unwrap();
         follower.take_change();
-        let (outline, pieces) = derived_in_steps(&follower, &mut random);
+        let (outline, pieces) = derived_in_steps(&follower, document.paint(), &mut random);
         Self { document, follower, outline, pieces, finest, name: format!("seed {seed}") }
     }
 
@@ -111,6 +118,13 @@ impl Scene {
         match random.u32(..6) {
             0 => _ = self.document.undo(),
             1 => _ = self.document.redo(),
+            2 if random.bool() => {
+                // Often no triangle of the mesh changes by that, and only edges on the outline do.
+                let mut layers = self.document.settings().layers.clone();
+                layers[0].kind = LayerKind::constant(self.finest * (4.0 + 5.0 * random.f64()));
+                self.document.set(Setting::Layers(layers)).unwrap();
+                self.document.end_gesture();
+            }
             2 => {
                 let mut layers = self.document.settings().layers.clone();
                 let last = layers.len() - 1;
@@ -149,7 +163,7 @@ impl Scene {
                 true
             }
             Some(MeshChange::Replaced) => {
-                (self.outline, self.pieces) = derived_in_steps(&self.follower, random);
+                (self.outline, self.pieces) = derived_in_steps(&self.follower, self.document.paint(), random);
                 true
             }
         }
@@ -157,7 +171,8 @@ impl Scene {
 
     fn replace(&mut self, changes: &Changes) {
         let mesh = self.follower.mesh();
-        let ids = self.outline.update(mesh, changes);
+        let targets = self.follower.edge_targets(self.document.paint());
+        let ids = self.outline.update(mesh, targets, changes);
         let replacements = ids.iter().map(|&id| self.outline.replacement(mesh, id));
         let touched = self.pieces.replace(mesh, changes, replacements);
         let is_touched = |id| touched.iter().any(|(touched, _)| *touched == id);
@@ -167,7 +182,8 @@ impl Scene {
 
     fn check(&self, edit: usize) {
         let (mesh, domain) = (self.follower.mesh(), self.follower.domain());
-        let scratch = DerivedMesh::new(mesh, domain, &Cleaning::NONE);
+        let targets = self.follower.edge_targets(self.document.paint());
+        let scratch = DerivedMesh::new(mesh, domain, targets, &Cleaning::NONE);
         let kept = DerivedMesh::of_follower(mesh, &self.outline, &Cleaning::NONE);
         let name = format!("{}, edit {edit}", self.name);
         assert!(triangles(mesh, &kept) == triangles(mesh, &scratch), "{name}: other triangles");
@@ -205,9 +221,10 @@ fn a_change_near_the_outline_that_is_too_large_is_reported() {
         while scene.follower.advance(&mut scene.document, 2000).unwrap() != Stage::InStep {}
         let Some(MeshChange::Within(changes)) = scene.follower.take_change() else { continue };
         let mut limited = scene.outline.clone();
+        let targets = scene.follower.edge_targets(scene.document.paint());
         let most = random.usize(1..200);
-        let few = limited.update_few(scene.follower.mesh(), &changes, most);
-        let all = scene.outline.update(scene.follower.mesh(), &changes);
+        let few = limited.update_few(scene.follower.mesh(), targets, &changes, most);
+        let all = scene.outline.update(scene.follower.mesh(), targets, &changes);
         match few {
             Some(few) => {
                 assert_eq!(few, all);
@@ -233,7 +250,8 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
                 scene.follow(&mut random);
             }
             let (mesh, domain) = (scene.follower.mesh(), scene.follower.domain());
-            let scratch = DerivedMesh::new(mesh, domain, &Cleaning::NONE);
+            let targets = scene.follower.edge_targets(scene.document.paint());
+            let scratch = DerivedMesh::new(mesh, domain, targets, &Cleaning::NONE);
             (
                 scratch.patch().clone(),
                 triangles(mesh, &DerivedMesh::of_follower(mesh, &scene.outline, &Cleaning::NONE)),

@@ -14,7 +14,7 @@ use meshbrush_core::build::MeshBuilder;
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, Polygon, Ring};
 use meshbrush_core::field::CostFormula;
-use meshbrush_core::layers::{Mask, RiskField};
+use meshbrush_core::layers::{Mask, PaintLayers, RiskField};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::path::{
     CertificateTask, FormulaCost, PathArea, PathCertificate, PathError, PathMesh, PathRequest, Planner,
@@ -132,7 +132,8 @@ impl Coast {
         let mut builder = MeshBuilder::new(settings.mesh_spec().ok()?);
         while builder.advance(None, 100_000).unwrap() != Progress::Done {}
         let built = builder.finish();
-        let derived = DerivedMesh::new(&built.mesh, &built.domain, &settings.derived_cleaning());
+        let targets = built.edge_targets(PaintLayers::blank());
+        let derived = DerivedMesh::new(&built.mesh, &built.domain, targets, &settings.derived_cleaning());
         let plan = PathPlan { clearance, ..PathPlan::default() };
         let area = plan.area(&settings.domain).unwrap();
         let area = match keep_out.is_empty() {

@@ -140,7 +140,7 @@ fn every_number_is_that_of_the_triangles_with_their_nodes_on_the_outline() {
         let Ok(built) = try_formula_mesh(&domain, 0.2 * extent, treatment, &target.formula()) else {
             continue;
         };
-        let derived = DerivedMesh::new(&built.mesh, &built.domain, &Cleaning::FOR_SOLVERS);
+        let derived = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::FOR_SOLVERS);
         let extract = derived.extract(&built.mesh);
         if extract.triangles().is_empty() {
             continue;

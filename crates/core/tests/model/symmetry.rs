@@ -12,8 +12,9 @@ use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, OutlineOnEarth, Polygon, corners};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    BandLayer, Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterLayer,
-    RasterReading, RasterSource, ShapeList, Shapes, SizeFieldSpec, Threat, ThreatLaw, Threats, ValueCurve,
+    BandLayer, Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity,
+    RasterLayer, RasterReading, RasterSource, ShapeList, Shapes, SizeFieldSpec, Threat, ThreatLaw, Threats,
+    ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -214,7 +215,8 @@ fn triangles(built: &BuiltMesh, map: &Map, derived: bool) -> Vec<[[i64; 2]; 3]> 
         map.square([f64::from(p.x), f64::from(p.y)], side).map(|coordinate| coordinate as i64)
     };
     let whole = mesh.extract();
-    let derived_mesh = DerivedMesh::new(mesh, &built.domain, &cleaning);
+    let derived_mesh =
+        DerivedMesh::new(mesh, &built.domain, built.edge_targets(PaintLayers::blank()), &cleaning);
     let extract = if derived { derived_mesh.extract(mesh) } else { whole };
     let corners = |corners: [usize; 3]| {
         let mut corners = corners.map(|node| mapped(extract.node(NodeId::from_index(node))));

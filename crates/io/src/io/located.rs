@@ -14,7 +14,7 @@ use super::{Meter, Number};
 use meshbrush_core::build::{BuildError, BuiltMesh, MeshBuilder};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
-use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::outline::{DerivedMesh, EdgeTargets};
 use meshbrush_mesh::mesh::{
     Cell, CoarseError, Extract, Location, Locator, Mesh, MeshPatch, NodeId, PatchedLocator, Progress,
     TriangleId, barycentric, interpolate,
@@ -110,7 +110,8 @@ pub fn write_of_document(
         meter.check()?;
     }
     let BuiltMesh { domain, field, rule, mesh, .. } = builder.finish();
-    let derived = DerivedMesh::new(&mesh, &domain, &cleaning);
+    let targets = EdgeTargets::by_rule(rule, &field, paint);
+    let derived = DerivedMesh::new(&mesh, &domain, targets, &cleaning);
     let extract = derived.extract(&mesh);
     let value_at = |node: DVec2| field.target_by_rule(rule, paint, node);
     LocatedIn { mesh: &mesh, patch: derived.patch(), extract: &extract, value_at: &value_at }

@@ -11,7 +11,7 @@ use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{DomainOnLattice, MeshBoundary};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{NodeDepths, PaintLayers, SizeField};
-use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::outline::{DerivedMesh, EdgeTargets};
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::solver_rules::{BrokenRule, Severity, Solver, WrittenMesh, broken_rules};
 use meshbrush_io::io::{
@@ -189,7 +189,9 @@ impl MeshExport {
     }
 
     fn extract(&self) -> Extract<'static> {
-        let derived = DerivedMesh::new(&self.mesh, &self.domain, &self.settings.derived_cleaning());
+        let targets = EdgeTargets::by_rule(self.settings.rule, &self.field, &self.paint);
+        let cleaning = self.settings.derived_cleaning();
+        let derived = DerivedMesh::new(&self.mesh, &self.domain, targets, &cleaning);
         derived.extract(&self.mesh).into_owned()
     }
 

@@ -52,7 +52,7 @@ impl SolverRepair {
             Err(error) => return Some(Err(error.to_string())),
         };
         let make = |spec| self.make(spec, wanted);
-        match repaired(self.solver, &spec, &self.settings.boundary_marks, 1.0, make) {
+        match repaired(self.solver, &spec, &self.settings.boundary_marks, (1.0, &self.paint), make) {
             Ok(repaired) => Some(Ok(repaired)),
             Err(NoLayers::Impossible(error)) => Some(Err(error.to_string())),
             Err(NoLayers::Unwanted) => None,

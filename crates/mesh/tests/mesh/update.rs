@@ -198,7 +198,7 @@ struct Mirror(Mesh);
 
 impl Mirror {
     fn follow(&mut self, mesh: &Mesh, changes: Option<Changes>) {
-        let Some(Changes { nodes, triangles }) = changes else {
+        let Some(Changes { nodes, triangles, .. }) = changes else {
             assert_eq!(
                 (self.0.raw_nodes(), self.0.raw_triangles()),
                 (mesh.raw_nodes(), mesh.raw_triangles())

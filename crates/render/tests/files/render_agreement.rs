@@ -334,6 +334,7 @@ pub fn differences(before: &Mesh, after: &Mesh) -> Changes {
     Changes {
         nodes: changed(before.raw_nodes(), after.raw_nodes()),
         triangles: changed(before.raw_triangles(), after.raw_triangles()),
+        ..Changes::default()
     }
 }
 
@@ -643,8 +644,8 @@ fn pieces_wait_for_the_mesh_that_is_being_uploaded() {
     // Pieces of a mesh that is no longer shown change nothing.
     let mut former = former;
     let all = Changes {
-        nodes: Vec::new(),
         triangles: std::iter::once(0..built.mesh.raw_triangle_count()).collect(),
+        ..Changes::default()
     };
     let retired = former.retire(&built.mesh, &all);
     gpu.renderer().mirror_mut().change_pieces(&former, &retired).unwrap();
@@ -664,8 +665,10 @@ fn a_picture_is_drawn_again_when_its_pieces_change() {
     gpu.frame(&camera, &style).unwrap();
     assert_eq!(gpu.renderer().redraws(), 2, "other pieces");
     let first = pieces.replaced().next().unwrap().index();
-    let retired = pieces
-        .retire(mesh, &Changes { nodes: Vec::new(), triangles: std::iter::once(first..first + 1).collect() });
+    let retired = pieces.retire(
+        mesh,
+        &Changes { triangles: std::iter::once(first..first + 1).collect(), ..Changes::default() },
+    );
     gpu.renderer().mirror_mut().change_pieces(&pieces, &retired).unwrap();
     gpu.renderer().mirror_mut().change_pieces(&pieces, &[]).unwrap();
     gpu.frame(&camera, &style).unwrap();

@@ -80,7 +80,7 @@ impl Case {
     fn new(domain: &Domain, marks: &BoundaryMarks, spacing: f64, treatment: BoundaryTreatment) -> Self {
         let built = formula_mesh(domain, spacing, treatment, "10");
         let mesh: &'static Mesh = Box::leak(Box::new(built.mesh));
-        let extract = DerivedMesh::new(mesh, &built.domain, &Cleaning::FOR_SOLVERS).extract(mesh);
+        let extract = DerivedMesh::new(mesh, &built.domain, None, &Cleaning::FOR_SOLVERS).extract(mesh);
         let boundary = MeshBoundary::new(&extract, domain, marks);
         Self::of(extract, boundary, mesh)
     }

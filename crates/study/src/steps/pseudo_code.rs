@@ -152,7 +152,7 @@ impl Algorithm {
 
 const KEEP_BY_CENTROID: [&str; 2] = ["for each triangle t do", "    remove t unless its centroid is in Ω"];
 
-const FIT_TO_OUTLINE: [&str; 14] = [
+const FIT_TO_OUTLINE: [&str; 15] = [
     "for each triangle t do",
     "    remove t unless a corner of t is in Ω",
     "for each node x at an edge that ∂Ω crosses near x do",
@@ -162,6 +162,7 @@ const FIT_TO_OUTLINE: [&str; 14] = [
     "move the node next to each sharp corner of ∂Ω there",
     "while an angle is too small do",
     "    move its nodes back, half of the way each time",
+    "halve edges that are longer than their target",
     "repeat 8 times",
     "    flip edges while that makes small angles larger",
     "    shift nodes while that makes small angles larger",

@@ -7,7 +7,7 @@ use super::recording::{RecordedStep, Recording, ReportRow, RowChange, StepAction
 use super::stages::StepStage;
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Answer, Cleaning, Element, Limits, Mesh, Orientation, Progress, RefineError, TriangleId};
-use crate::outline::derivation_stages;
+use crate::outline::{EdgeTargets, derivation_stages};
 
 /// A triangle and its row; `None` while it is not in the array.
 type KnownRow = (TriangleId, Option<ReportRow>);
@@ -121,7 +121,12 @@ impl StepRecorder {
 
     /// Returns the recording with what follows the refinement on a domain, if that came to its end: triangles
     /// outside are removed, and nodes move onto the outline. The end is the mesh that is shown and exported.
-    pub fn finish_on(mut self, domain: &DomainOnLattice, cleaning: &Cleaning) -> Recording {
+    pub fn finish_on(
+        mut self,
+        domain: &DomainOnLattice,
+        targets: Option<EdgeTargets>,
+        cleaning: &Cleaning,
+    ) -> Recording {
         if self.is_cut_short {
             return self.finish();
         }
@@ -129,7 +134,7 @@ impl StepRecorder {
             let all = 0..self.mesh.raw_triangle_count();
             self.mesh.classify(all, |element| domain.excludes(element));
         }
-        let stages = StepStage::all(&self.mesh, derivation_stages(&self.mesh, domain, cleaning));
+        let stages = StepStage::all(&self.mesh, derivation_stages(&self.mesh, domain, targets, cleaning));
         self.finish().with_stages(stages)
     }
 

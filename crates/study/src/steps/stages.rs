@@ -146,9 +146,10 @@ impl StageChange {
             DerivationAction::CutEdges => (FitToOutline, 5..7),
             DerivationAction::MoveToCorners => (FitToOutline, 7..8),
             DerivationAction::Retreat => (FitToOutline, 8..10),
-            DerivationAction::FlipEdges => (FitToOutline, 11..12),
-            DerivationAction::ShiftNodes => (FitToOutline, 12..13),
-            DerivationAction::PullToOutline => (FitToOutline, 13..14),
+            DerivationAction::HalveEdges => (FitToOutline, 10..11),
+            DerivationAction::FlipEdges => (FitToOutline, 12..13),
+            DerivationAction::ShiftNodes => (FitToOutline, 13..14),
+            DerivationAction::PullToOutline => (FitToOutline, 14..15),
             DerivationAction::Clean => (Algorithm::Clean, 1..4),
         }
     }
@@ -177,8 +178,14 @@ impl StageChange {
                 format!("{moved} moved to sharp corners of the outline, so that the mesh has these corners.")
             }
             DerivationAction::Retreat => {
-                format!("{moved} moved back towards the former place, where an angle was too small.")
+                format!(
+                    "{moved} moved back towards the former place, where an angle was too small or an edge too long."
+                )
             }
+            DerivationAction::HalveEdges => format!(
+                "Edges that moves made longer than their target are halved, at {} more.",
+                counted(self.added, "node")
+            ),
             DerivationAction::FlipEdges => format!(
                 "Edges between {} flipped: the smallest angle of each pair becomes larger.",
                 counted(self.changed, "triangle")

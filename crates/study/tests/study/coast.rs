@@ -7,7 +7,7 @@ use fastrand::Rng;
 use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerKind, SizeFieldSpec};
+use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
 use meshbrush_core::outline::{DerivationAction, DerivedMesh};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint};
 use meshbrush_mesh::mesh::{Cleaning, KeptParts, Limits, Mesh, NodeId, Progress};
@@ -73,7 +73,11 @@ fn player(built: &BuiltMesh, cleaning: &Cleaning) -> StepPlayer {
     let mut recorder = StepRecorder::new(coarse, limits, 100_000);
     let mut criterion = built.criterion(None);
     while recorder.advance(|element| criterion.exceeds(element), 1000).unwrap() == Progress::More {}
-    StepPlayer::new(Arc::new(recorder.finish_on(&built.domain, cleaning)))
+    StepPlayer::new(Arc::new(recorder.finish_on(
+        &built.domain,
+        built.edge_targets(PaintLayers::blank()),
+        cleaning,
+    )))
 }
 
 #[test]
@@ -83,7 +87,8 @@ fn the_last_step_on_a_coast_is_the_mesh_that_the_program_shows() {
         let (built, cleaning) = built(seed);
         let mut player = player(&built, &cleaning);
         player.go_to(usize::MAX);
-        let derived = DerivedMesh::new(&built.mesh, &built.domain, &cleaning);
+        let derived =
+            DerivedMesh::new(&built.mesh, &built.domain, built.edge_targets(PaintLayers::blank()), &cleaning);
         let extract = derived.extract(&built.mesh);
         let of_cell =
             |corners: [usize; 3]| sorted(corners.map(|node| extract.node(NodeId::from_index(node))));

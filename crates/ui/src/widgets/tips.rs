@@ -364,7 +364,7 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Steps per second/300", "Plays 300 steps in a second."),
     (
         "Nodes on outline",
-        "Nodes of the boundary that lie on the outline. The others would make an angle too small.",
+        "Nodes of the boundary that lie on the outline. The others would make an angle too small, or an edge longer than its target.",
     ),
     ("Islands kept", "Islands of the outline that are no part of the mesh."),
     ("Net area", "Area of the mesh without that of the outline."),

@@ -61,7 +61,7 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
         ui,
         match settings.boundary {
             BoundaryTreatment::OnOutline { .. } => {
-                "Nodes lie on the outline. Features narrower than the triangles there vanish or join."
+                "Nodes lie on the outline, and no edge is longer than its target. Features narrower than the triangles there vanish or join."
             }
             BoundaryTreatment::Fitted { .. } => {
                 "A triangle stays if its centroid is inside: all angles are 45° or 90°, and the boundary is a staircase."

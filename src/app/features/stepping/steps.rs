@@ -7,6 +7,7 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::outline::EdgeTargets;
 use meshbrush_kit::kit::document_id::DocumentId;
 use meshbrush_kit::kit::jobs::{Jobs, Slot};
 use meshbrush_kit::kit::session::Session;
@@ -273,7 +274,8 @@ fn record(
             .map_err(|error| error.to_string())?
             == Progress::More
         {}
-        let recording = Arc::new(recorder.finish_on(&domain, &cleaning));
+        let targets = EdgeTargets::by_rule(rule, &field, &paint);
+        let recording = Arc::new(recorder.finish_on(&domain, targets, &cleaning));
         let made_queried = queried.and_then(|point| bisection_around(&recording, point));
         Ok(Recorded { recording, made_queried })
     })

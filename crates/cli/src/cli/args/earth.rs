@@ -31,11 +31,11 @@ pub struct EarthArguments {
     /// Mesh the region in metres on the Earth, in the plane of a conformal projection
     ///
     /// All lengths are then in metres, and no edge of the mesh is longer on the Earth than its target
-    /// diameter, whatever the scale of the plane is. auto chooses what suits the region: merc (Mercator),
-    /// tmerc (transverse Mercator), stere (polar stereographic) or lcc (Lambert). EPSG:N is the projection
-    /// of a code, such as EPSG:32633 for a zone of UTM. A projection written as PROJ does, with all its
-    /// numbers, is also the coordinate system of files that name none. metres keeps the plane of the
-    /// region's file if it is known, and is auto otherwise. none takes degrees for lengths in a plane
+    /// diameter (by the area rule), whatever the scale of the plane is. auto chooses what suits the region:
+    /// merc (Mercator), tmerc (transverse Mercator), stere (polar stereographic) or lcc (Lambert). EPSG:N is
+    /// the projection of a code, such as EPSG:32633 for a zone of UTM. A projection written as PROJ does,
+    /// with all its numbers, is also the coordinate system of files that name none. metres keeps the plane of
+    /// the region's file if it is known, and is auto otherwise. none takes degrees for lengths in a plane
     /// [default: metres if a length has a unit, as in 2 km; otherwise none]
     #[arg(long, value_name = "auto|metres|none|merc|tmerc|stere|lcc|EPSG:N|PROJ")]
     pub projection: Option<String>,

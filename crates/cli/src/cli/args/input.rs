@@ -178,7 +178,8 @@ pub enum BoundaryArgument {
     Report,
     /// The mesh is refined along the outline; then a triangle stays when its centroid is inside
     Fitted,
-    /// As fitted; then nodes along the outline move onto it
+    /// As fitted; then nodes along the outline move onto it, and edges that become longer than their target
+    /// are halved
     #[default]
     Outline,
 }

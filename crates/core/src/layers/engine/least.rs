@@ -8,6 +8,7 @@ use crate::layers::PaintLayers;
 use super::gradation::{GradationSearch, SearchedPart, quarter_bits};
 use super::parts::KnownParts;
 use super::place::{ConvexSet, TriangleInWorld};
+use super::reading::largest_below;
 use super::stack::Stack;
 
 /// The least h̄ in a closed triangle.
@@ -46,7 +47,60 @@ pub fn least_within(stack: &Stack, paint: &PaintLayers, corners: [LatticePoint; 
     Least { target, at: origin + at, from: origin + from }
 }
 
+/// Returns whether h̄ is below a length at some point of the closed triangle with these corners, which need
+/// not be one of a mesh. Where a search ends without an answer, it is.
+///
+/// A triangle of a mesh that meets the area rule has no such point, and nor has any triangle within it.
+pub fn any_below(
+    stack: &Stack,
+    paint: &PaintLayers,
+    known: &mut KnownParts,
+    corners: [LatticePoint; 3],
+    length: f64,
+) -> bool {
+    let limits = stack.limits();
+    if length <= limits.h_min || length > limits.h_max {
+        return length > limits.h_min;
+    }
+    let whole = known.whole(stack);
+    if known.diameters(stack, paint, whole)[0] >= length {
+        return false;
+    }
+    let place = TriangleInWorld::new(corners, stack.lattice());
+    // What is carried is rounded, as in the area rule.
+    let (slope, length) = match stack.slope() {
+        Some(slope) => (slope, f64::from(largest_below(length)).next_up()),
+        None => (NO_GRADATION, length * (1.0 - 0.5 * TOLERANCE)),
+    };
+    let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(stack.pixel_bits(paint));
+    GradationSearch { stack, paint, place, slope, finest }.any_below_in_triangle(known, length)
+}
+
 impl GradationSearch<'_, TriangleInWorld> {
+    /// Returns whether a cell, at distance d from the triangle, has h + g d < `length`.
+    fn any_below_in_triangle(&self, known: &mut KnownParts, length: f64) -> bool {
+        let mut parts = BestFirst::default();
+        let is_below = |known: &mut KnownParts, id, parts: &mut BestFirst<SearchedPart>| {
+            let Some((bound, part)) = self.part(known, id, length) else { return false };
+            parts.push(bound, part);
+            part.greatest + self.slope * part.distance < length
+        };
+        if self.start(known, self.stack.limits().h_min, length).any(|id| is_below(known, id, &mut parts)) {
+            return true;
+        }
+        for _ in 0..MOST {
+            let Some((_, part)) = parts.pop() else { return false };
+            // At the triangle itself, all cells count.
+            if part.distance > 0.0 && !self.is_steep(known, part.id) {
+                continue;
+            }
+            if self.divided(known, part.id).any(|id| is_below(known, id, &mut parts)) {
+                return true;
+            }
+        }
+        true
+    }
+
     /// Returns the least value of a cell, carried to the triangle, and a rectangle that has it.
     fn least(&self, known: &mut KnownParts) -> Option<(f64, Rect)> {
         let mut parts = BestFirst::default();

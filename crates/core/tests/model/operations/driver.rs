@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::dvec2;
 use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Readings, Settings, Stage};
-use meshbrush_core::layers::LevelCache;
+use meshbrush_core::layers::{LevelCache, PaintLayers};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Fingerprint, Mesh, NodeId, Progress, Triangle, TriangleId};
@@ -158,7 +158,10 @@ impl Driver {
                 "another mesh than from scratch: {}",
                 difference(self.follower.mesh(), rebuilt.mesh())
             );
-            assert!(derived(&self.follower) == derived(&rebuilt), "the derived mesh is another");
+            assert!(
+                derived(&self.follower, self.document.paint()) == derived(&rebuilt, self.document.paint()),
+                "the derived mesh is another"
+            );
             let Self { document, follower, pricer, compared, .. } = self;
             self.priced += usize::from(check_price(pricer, *compared, document, follower));
             self.compared += 1;
@@ -183,9 +186,10 @@ fn difference(followed: &Mesh, rebuilt: &Mesh) -> String {
 }
 
 /// Returns the triangles that leave the program, as corners in any order.
-fn derived(follower: &Follower) -> Vec<[LatticePoint; 3]> {
+fn derived(follower: &Follower, paint: &PaintLayers) -> Vec<[LatticePoint; 3]> {
     let cleaning = follower.settings().derived_cleaning();
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let targets = follower.edge_targets(paint);
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning);
     let extract = derived.extract(follower.mesh());
     assert_eq!(derived.violations(&extract), []);
     let corners = |corners: [usize; 3]| {

@@ -23,7 +23,8 @@ use meshbrush_core::document::{Document, Setting, unused_name};
 use meshbrush_core::domain::{BoundaryMarks, MeshBoundary};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, ShapeList, Shapes, ShapesError,
+    Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, ShapeList, Shapes,
+    ShapesError,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::mesh::{Extract, Mesh, TriangleId};
@@ -98,8 +99,9 @@ struct Finer {
 /// Returns layers with which a mesh keeps the rules of a solver, as far as smaller triangles help: those that
 /// leave the fewest places.
 ///
-/// `make` makes the mesh of a description, whose targets it multiplies by `scale`; `marks` are the names of
-/// its boundary. The vertex rule looks at h̄ in nodes only, so under it the layers change nothing.
+/// `make` makes the mesh of a description with the pixels of `paint`, and multiplies its targets by `scale`;
+/// `marks` are the names of its boundary. The vertex rule looks at h̄ in nodes only, so under it the layers
+/// change nothing.
 ///
 /// # Errors
 /// Fails when `make` does.
@@ -107,7 +109,7 @@ pub fn repaired<E>(
     solver: Solver,
     spec: &MeshSpec,
     marks: &BoundaryMarks,
-    scale: f64,
+    (scale, paint): (f64, &PaintLayers),
     mut make: impl FnMut(MeshSpec) -> Result<BuiltMesh, E>,
 ) -> Result<Repaired, E> {
     let mut finer = Finer::default();
@@ -119,7 +121,8 @@ pub fn repaired<E>(
         asking.field.layers.extend(layers.iter().cloned());
         asking.field.transfer.h_min = h_min.unwrap_or(spec.field.transfer.h_min);
         let built = make(asking)?;
-        let derived = DerivedMesh::new(&built.mesh, &built.domain, &spec.cleaning);
+        let targets = built.edge_targets(paint);
+        let derived = DerivedMesh::new(&built.mesh, &built.domain, targets, &spec.cleaning);
         let extract = derived.extract(&built.mesh);
         let left = broken_in(&extract, spec, marks, solver);
         let goes_on = finer.learn(&built, &extract, &left);

@@ -7,6 +7,7 @@ use std::collections::HashSet;
 
 use crate::kit::platform::IS_PAGE;
 use meshbrush_core::document::{Follower, MeshChange};
+use meshbrush_core::layers::PaintLayers;
 use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Changes, Mesh, Replacement, TriangleId};
@@ -59,12 +60,18 @@ impl Coast {
         self.removed.0.is_empty()
     }
 
-    /// Takes in a change of the mesh, and returns the triangles whose pieces may be others than before;
-    /// `None` if it is no longer in step.
-    pub(super) fn follow(&mut self, follower: &Follower, changes: &Changes) -> Option<Vec<TriangleId>> {
+    /// Takes in a change of the mesh and of the targets of edges, and returns the triangles whose pieces may
+    /// be others than before; `None` if it is no longer in step.
+    pub(super) fn follow(
+        &mut self,
+        follower: &Follower,
+        paint: &PaintLayers,
+        changes: &Changes,
+    ) -> Option<Vec<TriangleId>> {
         let outline = self.outline.as_mut()?;
         let is_of_domain = has_domain_of(outline, follower);
-        let update = || outline.update_few(follower.mesh(), changes, MOST_AT_ONCE);
+        let targets = follower.edge_targets(paint);
+        let update = || outline.update_few(follower.mesh(), targets, changes, MOST_AT_ONCE);
         let replaced = is_of_domain.then(update).flatten();
         if replaced.is_none() {
             self.forget();
@@ -78,14 +85,15 @@ impl Coast {
         &mut self,
         outline: OutlineFollower,
         follower: &Follower,
+        paint: &PaintLayers,
         since: Option<&MeshChange>,
     ) -> Option<Vec<TriangleId>> {
         self.forget();
         self.outline = Some(outline);
         let unchanged = Changes::default();
         match since {
-            None => self.follow(follower, &unchanged),
-            Some(MeshChange::Within(changes)) => self.follow(follower, changes),
+            None => self.follow(follower, paint, &unchanged),
+            Some(MeshChange::Within(changes)) => self.follow(follower, paint, changes),
             Some(MeshChange::Replaced) => {
                 self.forget();
                 None

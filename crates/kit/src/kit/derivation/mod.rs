@@ -23,6 +23,7 @@ use coast::{Coast, RemovedTriangles};
 use super::jobs::{Job, JobKind, Jobs, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
 use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Region};
+use meshbrush_core::layers::PaintLayers;
 use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
     Changes, Cleaning, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
@@ -167,7 +168,7 @@ impl Derivation {
     }
 
     /// Notes what became of the follower's mesh.
-    pub fn note_change(&mut self, change: &MeshChange, follower: &Follower) {
+    pub fn note_change(&mut self, change: &MeshChange, follower: &Follower, paint: &PaintLayers) {
         let mesh = follower.mesh();
         match change {
             // Whoever draws begins another mesh without pieces.
@@ -176,7 +177,7 @@ impl Derivation {
                 self.replace_pieces(PatchPieces::default());
             }
             MeshChange::Within(changes) => {
-                let replaced = self.coast.follow(follower, changes);
+                let replaced = self.coast.follow(follower, paint, changes);
                 let touched = match &replaced {
                     Some(ids) => self.pieces.replace(mesh, changes, self.coast.replacements(mesh, ids)),
                     None => self.pieces.retire(mesh, changes),
@@ -223,8 +224,14 @@ impl Derivation {
     }
 
     /// Takes finished meshes, waiting for them as long as the frame may, and starts to derive the next one
-    /// where that is due. Returns whether one is being derived.
-    pub fn advance(&mut self, follower: &Follower, in_gesture: bool, jobs: &Jobs) -> bool {
+    /// where that is due. Returns whether one is being derived. `paint` is that of the follower's mesh.
+    pub fn advance(
+        &mut self,
+        follower: &Follower,
+        paint: &PaintLayers,
+        in_gesture: bool,
+        jobs: &Jobs,
+    ) -> bool {
         let is_small = follower.mesh().raw_triangle_count() <= MOST_IN_GESTURE;
         let may_start = follower.stage().is_settled() && (is_small || !in_gesture);
         loop {
@@ -237,12 +244,12 @@ impl Derivation {
                 match running.job.take(jobs) {
                     Taken::Working => return true,
                     Taken::Ended => self.end(),
-                    Taken::Value(outcome) => self.take(outcome, follower),
+                    Taken::Value(outcome) => self.take(outcome, follower, paint),
                 }
                 continue;
             }
             match DerivationKey::of(follower) {
-                Some(key) if self.is_new(&key) && may_start => self.start(key, follower, jobs),
+                Some(key) if self.is_new(&key) && may_start => self.start(key, follower, paint, jobs),
                 Some(_) => return false,
                 None => {
                     self.forget();
@@ -271,7 +278,7 @@ impl Derivation {
         }
     }
 
-    fn take(&mut self, outcome: DerivationResult, follower: &Follower) {
+    fn take(&mut self, outcome: DerivationResult, follower: &Follower, paint: &PaintLayers) {
         match outcome {
             DerivationResult::Derived(derived, pieces, removed) => {
                 self.coast.remove(removed, follower);
@@ -279,7 +286,7 @@ impl Derivation {
                 self.latest = Some(*derived);
                 self.replace_pieces(pieces);
             }
-            DerivationResult::Coast(outline) => self.begin_coast(*outline, follower),
+            DerivationResult::Coast(outline) => self.begin_coast(*outline, follower, paint),
             DerivationResult::Quality(quality) => {
                 if let Some(derived) = &mut self.latest {
                     derived.quality = Some(quality);
@@ -309,9 +316,9 @@ impl Derivation {
     }
 
     /// Lets the coast of the mesh that was derived catch up with the mesh, and shows it.
-    fn begin_coast(&mut self, outline: OutlineFollower, follower: &Follower) {
+    fn begin_coast(&mut self, outline: OutlineFollower, follower: &Follower, paint: &PaintLayers) {
         let since = self.running.as_ref().and_then(|running| running.since.as_ref());
-        if let Some(ids) = self.coast.begin(outline, follower, since) {
+        if let Some(ids) = self.coast.begin(outline, follower, paint, since) {
             let mesh = follower.mesh();
             let replacements = self.coast.replacements(mesh, &ids);
             let touched = self.pieces.replace(mesh, &Changes::default(), replacements);
@@ -319,13 +326,14 @@ impl Derivation {
         }
     }
 
-    fn start(&mut self, key: DerivationKey, follower: &Follower, jobs: &Jobs) {
+    fn start(&mut self, key: DerivationKey, follower: &Follower, paint: &PaintLayers, jobs: &Jobs) {
         let follows = !self.coast.is_of(follower);
         // Dropping a large one takes longer than a frame.
         let useless = self.coast.take_useless();
         let settings = follower.settings();
         let (domain, cleaning) = (follower.domain().clone(), key.cleaning);
-        let derivation = MeshDerivation::new(follower.shared_mesh(), domain, cleaning, follows);
+        let targets = follower.shared_targets(paint);
+        let derivation = MeshDerivation::new(follower.shared_mesh(), domain, targets, cleaning, follows);
         let work = DerivationWork {
             key: key.clone(),
             in_world: settings.domain.clone(),

@@ -33,7 +33,8 @@ impl Session {
             self.clock.last = Some(began.elapsed());
         }
         if let Some(change) = self.live.follower.take_change() {
-            self.derived.mesh.note_change(&change, &self.live.follower);
+            let (follower, paint) = (&self.live.follower, self.live.document.paint());
+            self.derived.mesh.note_change(&change, follower, paint);
             self.derived.ages.note(&change, self.live.follower.mesh());
             MeshChange::join(&mut self.derived.mesh_change, change, self.live.follower.mesh());
         }

@@ -60,7 +60,7 @@ impl Session {
     /// some is left.
     pub fn advance_derivation(&mut self, jobs: &Jobs) -> bool {
         let in_gesture = self.live.document.is_in_gesture() || self.is_cutting();
-        self.derived.mesh.advance(&self.live.follower, in_gesture, jobs)
+        self.derived.mesh.advance(&self.live.follower, self.live.document.paint(), in_gesture, jobs)
     }
 
     /// Returns the pieces of the boundary; `None` until [`Self::find_boundary`] has found them.

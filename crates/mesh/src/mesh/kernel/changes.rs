@@ -1,6 +1,7 @@
 use std::ops::Range;
 
 use super::{Bitset, Mesh, NodeId, TriangleId};
+use crate::geometry::LatticeRect;
 
 /// Which entries of a mesh's two arrays have changed since the last time this was asked.
 ///
@@ -12,13 +13,24 @@ pub struct Changes {
     pub nodes: Vec<Range<usize>>,
     /// Changed ranges of [`Mesh::triangles`](crate::mesh::Mesh::triangles).
     pub triangles: Vec<Range<usize>>,
+    /// Rectangles in which target diameters may have changed: where nodes are moved to an outline, the
+    /// lengths of edges depend on them. Empty without such nodes.
+    pub retargeted: Vec<LatticeRect>,
 }
+
+/// Most rectangles with changed targets; more are joined.
+const MOST_RETARGETED: usize = 32;
 
 impl Changes {
     /// Takes in what changed after this, in `mesh` as it is now.
     pub fn extend(&mut self, later: &Self, mesh: &Mesh) {
         join(&mut self.nodes, &later.nodes, mesh.raw_nodes().len());
         join(&mut self.triangles, &later.triangles, mesh.raw_triangle_count());
+        let new = later.retargeted.iter().filter(|area| !self.retargeted.contains(area));
+        self.retargeted.extend(new.copied().collect::<Vec<_>>());
+        if self.retargeted.len() > MOST_RETARGETED {
+            self.retargeted = self.retargeted.drain(..).reduce(|a, b| a.union(&b)).into_iter().collect();
+        }
     }
 }
 
@@ -69,6 +81,6 @@ impl ChangeLog {
     pub(super) fn take(&mut self) -> Option<Changes> {
         let (nodes, triangles) = (self.nodes.take_ranges(), self.triangles.take_ranges());
         let taken = std::mem::replace(&mut self.steps_taken, self.steps);
-        (taken != self.steps).then_some(Changes { nodes, triangles })
+        (taken != self.steps).then_some(Changes { nodes, triangles, retargeted: Vec::new() })
     }
 }

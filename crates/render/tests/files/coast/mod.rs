@@ -28,7 +28,7 @@ pub fn coast(diameter: f64) -> BuiltMesh {
 }
 
 pub fn derived(mesh: &Mesh, built: &BuiltMesh) -> DerivedMesh {
-    DerivedMesh::new(mesh, &built.domain, &Cleaning::FOR_SOLVERS)
+    DerivedMesh::new(mesh, &built.domain, None, &Cleaning::FOR_SOLVERS)
 }
 
 pub fn pieces(mesh: &Mesh, built: &BuiltMesh) -> PatchPieces {

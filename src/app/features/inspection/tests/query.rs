@@ -77,9 +77,11 @@ fn the_inspector_counts_as_files_do() {
     send(&mut window, Command::from(InspectCommand::Query(dvec2(25.25, 38.1))));
     window.run();
     // What files get, derived here again.
-    let follower = window.state().session().follower();
+    let session = window.state().session();
+    let follower = session.follower();
+    let targets = follower.edge_targets(session.document().paint());
     let cleaning = follower.settings().derived_cleaning();
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning);
     let extract = derived.extract(follower.mesh());
     let id = selected(&window).expect("a triangle of the sea");
     assert!(

@@ -135,7 +135,8 @@ fn vertices_and_weights_are_in_the_order_of_files() {
         let session = window.state().session();
         let triangle = session.readout(window.state().view().quantity).unwrap().triangle.unwrap();
         let cleaning = session.document().settings().derived_cleaning();
-        let derived = DerivedMesh::new(session.mesh(), session.follower().domain(), &cleaning);
+        let targets = session.follower().edge_targets(session.document().paint());
+        let derived = DerivedMesh::new(session.mesh(), session.follower().domain(), targets, &cleaning);
         let cell = derived.extract(session.mesh()).cell(triangle.id);
         assert_eq!(triangle.vertices.map(|(node, _)| node.index()), cell.corners);
         let weighted = (0..3).map(|i| triangle.zeta[i] * triangle.vertices[i].1).sum::<glam::DVec2>();
