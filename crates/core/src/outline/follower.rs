@@ -202,10 +202,10 @@ impl OutlineFollower {
             return Vec::new();
         }
         let is_in_area = |id: &TriangleId| areas.iter().any(|area| area.touches(mesh.corners(*id)));
-        let kept = self.seats.par_iter().filter(|(_, seat)| !seat.is_beside);
-        let kept = kept.map(|(&index, _)| TriangleId::from_index(index as usize));
-        let mut found: Vec<TriangleId> = kept.filter(is_in_area).collect();
-        found.par_sort_unstable();
+        let kept = self.seats.iter().filter(|(_, seat)| !seat.is_beside);
+        let kept: Vec<_> = kept.map(|(&index, _)| TriangleId::from_index(index as usize)).collect();
+        let mut found: Vec<TriangleId> = kept.into_par_iter().filter(is_in_area).collect();
+        found.sort_unstable();
         found
     }
 

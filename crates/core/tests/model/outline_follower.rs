@@ -100,7 +100,7 @@ impl Scene {
         let mut settings = Settings::for_domain("coast".into(), domain);
         settings.boundary = BoundaryTreatment::OnOutline { diameter };
         // Edges that are too long, or none.
-        let target = if seed % 2 == 0 { (0.8 + random.f64()) * diameter } else { 0.2 * size };
+        let target = if seed.is_multiple_of(2) { (0.8 + random.f64()) * diameter } else { 0.2 * size };
         settings.layers = Layer::default_stack(LayerKind::constant(target));
         let finest = 0.2 * diameter;
         (settings.transfer.h_min, settings.transfer.h_risk) = (finest, finest);
