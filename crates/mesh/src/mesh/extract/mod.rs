@@ -3,7 +3,6 @@
 #[expect(clippy::module_inception, reason = "the part is named for its main type")]
 mod extract;
 mod boundary;
-mod curve;
 mod patch;
 mod pieces;
 mod refined;
