@@ -13,9 +13,9 @@ use crate::paint::{Medium, Preview, Repaint, StrokePlan};
 /// Computes in slices how a planned stroke would change the number of triangles, without changing document or
 /// mesh.
 ///
-/// The stroke is painted on a copy of the paint, which shares all tiles that it does not touch. Then the update
-/// is performed on sets of nodes; where every edit rebuilds the mesh (close to a surface, or under the vertex
-/// rule), another one is made and counted. The answer is exact.
+/// The stroke is painted on a copy of the paint, which shares all tiles that it does not touch. Then the
+/// update is performed on sets of nodes; where every edit rebuilds the mesh (close to a surface, or under the
+/// vertex rule), another one is made and counted. The answer is exact.
 #[derive(Clone, Debug, Default)]
 pub struct Pricer {
     question: Option<StrokeQuestion>,

@@ -26,7 +26,8 @@ pub trait EditRecorder {
 /// Knows the overlay that exported pictures show in place of levels.
 #[derive(Clone, Copy)]
 pub struct PictureOverlays {
-    /// Returns what makes the overlay, with time steps of a Courant number; `None` where pictures show levels.
+    /// Returns what makes the overlay, with time steps of a Courant number; `None` where pictures show
+    /// levels.
     pub maker: fn(&Session, &View, f64) -> Option<OverlayMaker>,
     /// The Courant number of the person.
     pub courant: f64,
