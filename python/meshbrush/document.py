@@ -221,6 +221,17 @@ class Document:
         self._forget_mesh()
         return bisected, left
 
+    def cut_strips(self, solver: str, *, progress: Progress = None, threads: int | None = None) -> tuple[int, int]:
+        """Cuts strips off the domain in which its frame runs along a coast, with one or two triangles between them, as one edit.
+
+        Returns how many strips were cut off, and how many are left: a strip that joins two parts of the sea stays.
+        `Mesh.check` lists these among its notes. `undo` brings the strips back.
+        """
+        with watching(progress, threads) as watch:
+            cut, left = self._core.cut_strips(solver, watch)
+        self._forget_mesh()
+        return cut, left
+
     def why(self, point: tuple[float, float] | npt.ArrayLike) -> Why:
         """Says why the triangle at a point is in the mesh."""
         return self.mesh().why(point)

@@ -1,14 +1,18 @@
 //! The rules of solvers, and smaller triangles where a mesh breaks them.
 
+use meshbrush_cli::cli::build::MeshOrigin;
 use meshbrush_cli::cli::check::FileToCheck;
 use meshbrush_cli::cli::details::provenance_from;
 use meshbrush_cli::cli::exported_mesh::ExportedMesh;
 use meshbrush_cli::cli::failure::Failure;
 use meshbrush_cli::cli::output_coordinates::OutputCoordinates;
 use meshbrush_cli::cli::output_keys::{depth_changes_of, quantities_of};
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::Domain;
 use meshbrush_core::field::RefinementRule;
-use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::solver_rules::{Solver, repaired};
+use meshbrush_core::outline::DerivedMesh;
+use meshbrush_io::io::settings::{SavedDomain, SavedOutput};
+use meshbrush_io::io::solver_rules::{Solver, StripCutting, repaired};
 use meshbrush_io::io::{CellShape, MeshSource};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -18,7 +22,7 @@ use crate::document::{Document, NO_PLANE, built, lock, origin_of};
 use crate::errors::{fault_in, mesh_error};
 use crate::mesh::{Mesh, values_at_nodes};
 use crate::values::text_value;
-use crate::work::{Watching, run};
+use crate::work::{Watch, Watching, run};
 
 #[pymethods]
 impl Mesh {
@@ -108,9 +112,61 @@ impl Document {
         })?;
         Ok((found.bisected, found.places_left()))
     }
+
+    /// Cuts strips off the domain in which its frame runs along a coast, as one edit. Returns how many were
+    /// cut off, and how many are left.
+    fn cut_strips(&self, py: Python<'_>, solver: &str, watching: Watching) -> PyResult<(usize, usize)> {
+        let solver: Solver = solver.parse().map_err(mesh_error)?;
+        let state = self.state.clone();
+        let (domain, counts, revision) = run(py, &watching, move |watch| {
+            let (origin, revision) = {
+                let state = lock(&state);
+                let lattice = state.document.settings().lattice().map_err(|error| error.to_string())?;
+                (origin_of(&state, lattice), state.document.revision())
+            };
+            let (domain, counts) = without_strips(solver, &origin, watch)?;
+            Ok::<_, String>((domain, counts, revision))
+        })?
+        .map_err(mesh_error)?;
+        self.with(py, |state| {
+            let document = &mut state.document;
+            if document.revision() != revision {
+                return Err(mesh_error(CHANGED_BEFORE_CUT));
+            }
+            document.end_gesture();
+            document.set(Setting::Domain(domain)).map_err(mesh_error)?;
+            document.end_gesture();
+            Ok(())
+        })?;
+        Ok(counts)
+    }
+}
+
+/// Returns a domain without the strips in which its frame runs along a coast, how many were cut off, and how
+/// many are left.
+fn without_strips(
+    solver: Solver,
+    origin: &MeshOrigin,
+    watch: &Watch,
+) -> Result<(Domain, (usize, usize)), String> {
+    let cutting = StripCutting::new(solver);
+    let mut cutting =
+        cutting.ok_or_else(|| format!("{} has no rule on strips along the frame.", solver.name()))?;
+    let mut spec = origin.spec.clone();
+    loop {
+        let (made, ..) = built(spec.clone(), &origin.paint, watch)?;
+        let derived = DerivedMesh::new(&made.mesh, &made.domain, &spec.cleaning);
+        if !cutting.look(&derived.extract(&made.mesh), &spec.domain, &origin.marks) {
+            return Ok((spec.domain, (cutting.cut(), cutting.left().len())));
+        }
+        let rings = SavedDomain { cut_off: cutting.rings().to_vec(), ..SavedDomain::default() };
+        let cut = rings.cut(origin.spec.domain.clone());
+        spec.domain = cut.map_err(|fault| fault.full_sentence())?;
+    }
 }
 
 const CHANGED: &str =
     "The document was changed while its mesh was being repaired, and nothing was added. Repair it again.";
+const CHANGED_BEFORE_CUT: &str = "The document was changed while strips were being looked for, and nothing was cut off. Cut them off again.";
 const BY_VERTICES: &str = "The mesh cannot be repaired: by the vertex rule sizes count in nodes only, so none can ask for one triangle \
                            to be bisected. Choose rule=\"area\".";

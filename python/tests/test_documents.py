@@ -765,6 +765,25 @@ def test_rules_of_solvers_are_checked_and_repaired() -> None:
     assert "--out-crs" not in str(refused.value)
 
 
+def test_strips_along_the_frame_are_cut_off() -> None:
+    bay = [(0, 0), (40, 0), (40, 20), (24, 20), (24, 1), (0, 1)]
+    document = mb.Document(mb.Domain(np.array(bay), bounds=(0, 0, 60, 21)), spacing=4, boundary_diameter=1.2, open="frame")
+    document.layers.formula(1.5)
+
+    def strips() -> int:
+        return [note["rule"] for note in document.mesh().check("adcirc")["notes"]].count("strip_along_frame")
+
+    before = document.mesh().fingerprint
+    assert strips() == 1
+    assert document.cut_strips("adcirc") == (1, 0)
+    assert strips() == 0
+    assert document.mesh().triangles.shape[0] > 100
+    document.undo()
+    assert document.mesh().fingerprint == before
+    with pytest.raises(mb.MeshError, match="SWAN has no rule on strips"):
+        document.cut_strips("swan")
+
+
 def test_quantities_may_use_the_depth_and_grids(tmp_path: Path) -> None:
     for name, value in (("depth.asc", "-5"), ("cover.asc", "11")):
         head = "ncols 4\nnrows 4\nxllcorner -1\nyllcorner -1\ncellsize 1\n"

@@ -27,4 +27,5 @@ mod sequence;
 mod runs;
 mod solver_seas;
 mod straits;
+mod strips;
 mod surface;

@@ -7,13 +7,13 @@ use serde::Serialize;
 
 use super::args::CheckArguments;
 use super::build::FinishedMesh;
+use super::cut_strips::{Suited, build_suited};
 use super::details::{DetailUses, MeshDetails};
 use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
 use super::input::Input;
 use super::mesh::note_capped;
 use super::quantities::typed_quantities;
-use super::repair::{RepairSummary, build_for};
 use super::terminal::Terminal;
 use meshbrush_io::io::solver_rules::{
     BrokenPlace, BrokenRule, Severity, Solver, SolverRule, WrittenMesh, broken_rules, rules_of,
@@ -34,12 +34,15 @@ pub fn run(
     out: &mut dyn Write,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let input = Input::new(&typed.input)?.scaled(typed.scale.unwrap_or(1.0));
+    let mut input = Input::new(&typed.input)?.scaled(typed.scale.unwrap_or(1.0));
     let quantities = typed_quantities(&typed.quantities)?;
     input.check_depth_for(quantities.iter().find(|quantity| quantity.uses_depth()))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let repair_for = typed.repair.then_some((typed.solver, "--repair"));
-    let (finished, repaired) = build_for(&input, repair_for, terminal)?;
+    let named = [
+        (typed.cut_strips.then_some(typed.solver), "--cut-strips"),
+        (typed.repair.then_some(typed.solver), "--repair"),
+    ];
+    let (finished, suited) = build_suited(&mut input, named, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
@@ -61,7 +64,7 @@ pub fn run(
     let cells = typed.cells.unwrap_or_default();
     let file = FileToCheck { exported, values: &values, cells, solver: typed.solver };
     let (written, broken) = terminal.while_working("checking the rules", || file.broken())?;
-    let answer = CheckAnswer { repaired, ..file.answer(&written, &broken) };
+    let answer = CheckAnswer { suited, ..file.answer(&written, &broken) };
     let text = match typed.json {
         true => serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))? + "\n",
         false => answer.for_people(typed.solver, &broken),
@@ -138,8 +141,8 @@ struct CheckAnswer<'a> {
     /// The places that a person should know of.
     notes: Vec<PlaceAnswer<'a>>,
     /// What was done so that fewer rules are broken, if that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    repaired: Option<RepairSummary>,
+    #[serde(flatten)]
+    suited: Suited,
     /// Rules that could not be checked, as the boundary touches itself.
     unchecked: Vec<&'static str>,
 }
@@ -201,7 +204,7 @@ impl<'a> CheckAnswer<'a> {
             rules: rules_of(solver).map(|rule| of_rule(rule.name, rule.source)).collect(),
             violations: PlaceAnswer::all(broken, Severity::Violation),
             notes: PlaceAnswer::all(broken, Severity::Note),
-            repaired: None,
+            suited: Suited::default(),
             unchecked: needs.map(|rule| rule.name).collect(),
         }
     }
@@ -225,7 +228,10 @@ impl<'a> CheckAnswer<'a> {
             }
             let _ = writeln!(text, "  {}", rule.remedy);
         }
-        if let Some(repaired) = &self.repaired {
+        if let Some(cut) = &self.suited.cut_strips {
+            text += &cut.with_recipe();
+        }
+        if let Some(repaired) = &self.suited.repaired {
             let _ = writeln!(text, "\n{}", repaired.for_people());
             if !repaired.as_recipe().is_empty() {
                 let _ = writeln!(

@@ -45,6 +45,8 @@ pub struct Input {
     lengths: Vec<LengthWithUnit>,
     /// What all sizes are multiplied by.
     scale: f64,
+    /// Whether notes on the files were told before.
+    pub is_quiet: bool,
 }
 
 /// A mesh to make, and the texts about it.
@@ -96,7 +98,7 @@ impl Input {
             _ => {}
         }
         let lengths = LengthWithUnit::all(typed);
-        Ok(Self { project: typed.project.clone(), recipe, settings, lengths, scale: 1.0 })
+        Ok(Self { project: typed.project.clone(), recipe, settings, lengths, scale: 1.0, is_quiet: false })
     }
 
     /// Returns the input with all sizes multiplied by a number.
@@ -153,7 +155,7 @@ impl Input {
             None => {
                 let Loaded { settings, paint, coordinates, notes, without_effect: _ } =
                     self.read_files(terminal)?;
-                notes.iter().for_each(|note| terminal.note(note));
+                self.tell(&notes, terminal);
                 (settings, paint, coordinates.unwrap_or(Coordinates::Geographic))
             }
         };
@@ -189,14 +191,22 @@ impl Input {
             let stored = SavedTreatment::of(document.settings().boundary);
             check_boundary_diameter(*diameter, has_outline, Some(options.boundary.unwrap_or(stored)))?;
         } else if options.boundary.is_some() && !has_outline {
-            terminal.note("--boundary changes nothing: the domain of the project has no polygons.");
+            let note = "--boundary changes nothing: the domain of the project has no polygons.";
+            self.tell(&[note.to_owned()], terminal);
         }
-        let settings = self.settings.override_settings(document.settings().clone());
+        let own = document.settings().clone();
+        let cut = options.cut(own.domain.clone()).map(|domain| Settings { domain, ..own });
+        let settings = cut.and_then(|settings| self.settings.override_settings(settings));
         let mut settings = settings.map_err(|fault| Failure::Usage(fault.to_string()))?;
         let notes = self.settings.open_boundary_of(&mut settings, &Loading::for_document(&meter))?;
-        notes.iter().for_each(|note| terminal.note(note));
+        self.tell(&notes, terminal);
         settings.transfer.checked()?;
         Ok((settings, document.paint().clone()))
+    }
+
+    /// Tells notes on the files, unless they were told before.
+    fn tell(&self, notes: &[String], terminal: &mut Terminal) {
+        notes.iter().filter(|_| !self.is_quiet).for_each(|note| terminal.note(note));
     }
 
     fn read_files(&self, terminal: &mut Terminal) -> Result<Loaded, Failure> {

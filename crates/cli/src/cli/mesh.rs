@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::args::{DepthArguments, MeshArguments};
 use super::build::FinishedMesh;
+use super::cut_strips::build_suited;
 use super::depths::{ChangedDepths, LeastDepth};
 use super::details::{DetailUses, MeshDetails, StraitSummary, provenance};
 use super::failure::Failure;
@@ -11,7 +12,6 @@ use super::input::Input;
 use super::output::Output;
 use super::output_coordinates::OutputCoordinates;
 use super::partition;
-use super::repair::build_for;
 use super::requested_files::RequestedFiles;
 use super::sequence::{self, SequenceStart};
 use super::standard_output;
@@ -36,13 +36,14 @@ pub fn run(
     out: &mut dyn Write,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let input = Input::new(&typed.input)?.scaled(checked_scale(typed)?);
+    let mut input = Input::new(&typed.input)?.scaled(checked_scale(typed)?);
     let by_options = RequestedFiles::of_options(typed)?;
     check_stdout(typed, &by_options.outputs)?;
     note_without_effect(typed, &input, &by_options.outputs, terminal);
     let files = all_files(typed, &input, by_options)?;
     input.check_depth_for(files.iter().find_map(RequestedFiles::of_depth))?;
-    let (finished, repaired) = build_for(&input, typed.repair_for.zip(Some("--repair-for")), terminal)?;
+    let named = [(typed.cut_strips_for, "--cut-strips-for"), (typed.repair_for, "--repair-for")];
+    let (finished, suited) = build_suited(&mut input, named, terminal)?;
     let extract = finished.extract();
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let coordinates = coordinates_in_files(typed, &files, &finished);
@@ -65,8 +66,7 @@ pub fn run(
     if !typed.json {
         terminal.say(&summary.for_people());
     }
-    repaired.iter().for_each(|repaired| terminal.note(&repaired.for_people()));
-    summary.repaired = repaired;
+    summary.suited = suited.told(terminal);
     note_changed_depths(typed.depths, details.as_ref(), terminal);
     note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
     let origin = || provenance(&finished, line, &input, OutputCoordinates::Plane);

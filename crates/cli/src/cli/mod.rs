@@ -9,6 +9,7 @@ pub mod build;
 pub mod check;
 mod color_by;
 mod command_line;
+mod cut_strips;
 mod depths;
 pub mod details;
 mod error_curve;

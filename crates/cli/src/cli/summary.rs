@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
+use super::cut_strips::Suited;
 use super::depths::{
     CourantSummary, DepthSlopeSummary, DepthSummary, HeightTimeStep, LeastDepth, TimeStepSummary,
 };
@@ -12,7 +13,6 @@ use super::details::{
 };
 use super::partition::PartitionSummary;
 use super::quality::QualitySummary;
-use super::repair::RepairSummary;
 use super::sequence::SequenceMesh;
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
@@ -86,8 +86,8 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub partition: Option<PartitionSummary>,
     /// What was done so that the mesh keeps the rules of a solver, if that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub repaired: Option<RepairSummary>,
+    #[serde(flatten)]
+    pub suited: Suited,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -348,7 +348,7 @@ impl Summary {
             straits: details.and_then(|details| details.straits.clone()),
             sequence: None,
             partition: None,
-            repaired: None,
+            suited: Suited::default(),
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
             capped: finished.capped,

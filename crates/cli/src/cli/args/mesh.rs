@@ -75,6 +75,15 @@ pub struct MeshArguments {
     #[arg(long, value_name = "NAME", help_heading = "Output")]
     pub repair_for: Option<Solver>,
 
+    /// Cut strips off the domain in which its frame runs along a coast, with one or two triangles between
+    /// them: adcirc, schism, fvcom, telemac, delft3dfm or mike
+    ///
+    /// There some solvers become unstable. The mesh is made again without them, and its new edges are land; a
+    /// strip that joins two parts of the sea stays, and is named. meshbrush check --cut-strips prints the
+    /// rings, as a recipe has them.
+    #[arg(long, value_name = "NAME", help_heading = "Output")]
+    pub cut_strips_for: Option<Solver>,
+
     /// Write so many meshes, each with every node of the one before and four triangles for each of its: to
     /// sea_1.14, sea_2.14 … for -o sea.14
     ///

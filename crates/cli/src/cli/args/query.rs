@@ -46,6 +46,11 @@ pub struct CheckArguments {
     #[arg(long, help_heading = "Rules")]
     pub repair: bool,
 
+    /// Cut strips off the domain in which its frame runs along a coast, before the rules are checked, and
+    /// print the rings around them, to be added to the recipe
+    #[arg(long, help_heading = "Rules")]
+    pub cut_strips: bool,
+
     /// Print the answer as one JSON object on standard output
     #[arg(long, help_heading = "Output")]
     pub json: bool,

@@ -177,6 +177,7 @@ impl SavedDomain {
             let sentence = format!("{} is not a share of the area, which lies from 0 to 1.", Number(share));
             return Err(KeyFault::value("parts", sentence));
         }
+        self.check_cut_off()?;
         self.sea.map_or(Ok(()), |at| point(at).map(|_| ()).map_err(|fault| fault.within("sea")))?;
         each("splits", &self.splits, |at| point(*at))?;
         each("names", &self.names, |name| point(name.at).map_err(|fault| fault.within("at")))?;

@@ -139,6 +139,7 @@ impl<L> SavedSettings<L> {
     ) -> Result<Settings, S::Error> {
         self.check_tables()?;
         let ReadRegion { domain, marks, unit } = self.read_domain(storage)?;
+        let domain = self.domain.cut(domain).map_err(|fault| fault.within("domain"))?;
         let unit = self.domain.unit.map_or(unit, Into::into);
         self.lengths.check(unit)?;
         let bounds = domain.bounds;
@@ -188,8 +189,11 @@ impl<L> SavedSettings<L> {
     /// Returns the bounds of a domain and a spacing that suit the samples of a surface, where the text leaves
     /// the domain to the layers.
     fn on_samples(&self, layers: &[Layer]) -> Option<(Rect, f64)> {
-        let SavedDomain { bounds, inside, .. } = &self.domain;
-        let is_free = bounds.is_none() && inside.is_none() && self.domain.outline_file().is_none();
+        let SavedDomain { bounds, inside, cut_off, .. } = &self.domain;
+        let is_free = bounds.is_none()
+            && inside.is_none()
+            && cut_off.is_empty()
+            && self.domain.outline_file().is_none();
         let mut rasters = layers.iter().filter_map(|layer| layer.kind.get::<Surface>()?.source.raster());
         let source = rasters.next_back().filter(|_| is_free)?;
         domain_on_samples(source.raster.raster(), self.mesh.spacing.map(Into::into))

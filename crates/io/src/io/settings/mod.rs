@@ -6,6 +6,7 @@
 //! back. A [`Storage`] reads what tables and layers name: files beside a recipe, or parts of a project.
 
 mod check;
+mod cut_off;
 mod load;
 mod of_settings;
 mod opening;
@@ -14,6 +15,7 @@ mod paths;
 mod tables;
 mod words;
 
+pub use cut_off::{SavedRing, written_ring};
 pub use load::{LoadingDefaults, ReadRegion, RegionCoordinates, Storage};
 pub use opening::{SavedOpen, SavedOpenings};
 pub use tables::{

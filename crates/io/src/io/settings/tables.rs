@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::{SavedName, SavedOpenings, SavedPieceType, SavedRule, SavedUnit};
+use super::{SavedName, SavedOpenings, SavedPieceType, SavedRing, SavedRule, SavedUnit};
 use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
 use crate::io::lengths::{GroundArea, GroundLength, METRES, SavedLength, WrittenLengths};
 use meshbrush_mesh::mesh::KeptParts;
@@ -116,6 +116,9 @@ pub struct SavedDomain {
     /// Whether the domain is where the grid has values.
     #[serde(skip_serializing_if = "is_no")]
     pub outside_nodata: bool,
+    /// Rings whose insides are cut off the domain.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cut_off: Vec<SavedRing>,
     /// What the coordinates of files are that do not name a known system: "lonlat", "EPSG:…", or a projection
     /// as PROJ writes it.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -10,10 +10,6 @@ use meshbrush_core::domain::signed_area;
 const LARGEST_SUM: usize = 4;
 /// The most edges of a hole that MeshKernel and D-Flow FM take for a cell.
 const MOST_EDGES_OF_CELL: usize = 6;
-/// Nodes of an open boundary at each end of it that do not count as a strip.
-const END: usize = 4;
-/// The fewest nodes in a row of a strip along land.
-const LEAST_STRIP: usize = 4;
 
 /// Finds nodes in which the boundary touches itself.
 pub(super) fn touching(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
@@ -119,32 +115,4 @@ pub(super) fn islands_like_cells(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
         BrokenPlace::new(mesh.nodes[nodes[0]], sentence).mended_in(mesh.triangles_along(nodes))
     };
     mesh.boundary_loops().iter().filter(|nodes| is_island(nodes)).map(found).collect()
-}
-
-/// Finds open boundaries along which a coast runs so close that no more than two triangles are between them.
-///
-/// ```text
-///   land ──────────────────     Nodes of the open boundary that are two edges from land or closer, at least
-///    /\  /\  /\  /\  /\  /\     LEAST_STRIP in a row. Those within END edges of the string's ends are left
-///   open ──────────────────     out: every open boundary meets the land there.
-/// ```
-pub(super) fn strips_along_frame(mesh: &WrittenMesh) -> Vec<BrokenPlace> {
-    let is_land: Vec<bool> =
-        (0..mesh.nodes.len()).map(|node| mesh.is_on_boundary(node) && !mesh.is_open[node]).collect();
-    let is_near = mesh.beside(&mesh.beside(&is_land));
-    let in_string = |string: &WrittenString| {
-        let inner = string.nodes.get(END..string.nodes.len().saturating_sub(END)).unwrap_or_default();
-        let runs = inner.chunk_by(|&a, &b| is_near[a] == is_near[b]);
-        let strips = runs.filter(|run| is_near[run[0]] && run.len() >= LEAST_STRIP);
-        let found = |run: &[usize]| {
-            let sentence = format!(
-                "The open boundary “{}” runs along land over {} edges, with at most two triangles between them.",
-                string.name,
-                run.len() - 1
-            );
-            BrokenPlace::new(mesh.nodes[run[run.len() / 2]], sentence)
-        };
-        strips.map(found).collect::<Vec<_>>()
-    };
-    mesh.strings.iter().filter(|string| string.is_open).flat_map(in_string).collect()
 }

@@ -11,15 +11,22 @@ mod flow_links;
 mod nodes;
 mod repair;
 mod solver;
+mod strip_cutting;
+mod strips;
 #[cfg(test)]
 mod tests;
 mod written_mesh;
 
 use glam::DVec2;
+use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary};
+use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::Grouped;
+
+use super::{CellShape, JoinedCells, MeshData, Provenance};
 
 pub use repair::{Repaired, repaired};
 pub use solver::{Solver, UnknownSolver};
+pub use strip_cutting::StripCutting;
 pub use written_mesh::{WrittenMesh, WrittenString};
 
 use Solver::{Adcirc, Delft3dFm, Fvcom, Mike, Modflow, Schism, Swan, Telemac};
@@ -189,8 +196,8 @@ pub static RULES: [SolverRule; 20] = [
         severity: Severity::Note,
         needs_strings: true,
         is_mended_by_size: false,
-        remedy: "Cut the strip off the domain, or choose smaller triangles there.",
-        find: boundary::strips_along_frame,
+        remedy: "Cut the strip off (--cut-strips, `cut_off` in a recipe), or choose smaller triangles there.",
+        find: strips::strips_along_frame,
     },
     SolverRule {
         name: "obtuse_angle",
@@ -327,4 +334,21 @@ pub fn broken_rules(mesh: &WrittenMesh, solver: Solver) -> Vec<BrokenRule> {
 fn broken_among(rules: impl Iterator<Item = &'static SolverRule>, mesh: &WrittenMesh) -> Vec<BrokenRule> {
     let broken = rules.map(|rule| BrokenRule { rule, found: (rule.find)(mesh) });
     broken.filter(|broken| !broken.found.is_empty()).collect()
+}
+
+/// Returns a mesh as a solver gets it, in the plane and without values at its nodes: as much as rules on the
+/// boundary need.
+fn plain_mesh(extract: &Extract, domain: &Domain, marks: &BoundaryMarks, solver: Solver) -> WrittenMesh {
+    let data = MeshData {
+        target_diameter: &[],
+        quantities: &[],
+        heights: None,
+        boundary: &MeshBoundary::new(extract, domain, marks),
+        parts: &[],
+        cells: CellShape::Triangles,
+        joined: &JoinedCells::default(),
+        parts_for: None,
+        provenance: &Provenance::default(),
+    };
+    WrittenMesh::of(extract, &data, solver)
 }

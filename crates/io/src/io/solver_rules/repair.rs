@@ -16,11 +16,10 @@ use std::collections::HashSet;
 
 use glam::DVec2;
 
-use super::{BrokenRule, Solver, WrittenMesh, broken_among, rules_of};
-use crate::io::{CellShape, JoinedCells, MeshData, Provenance};
+use super::{BrokenRule, Solver, broken_among, plain_mesh, rules_of};
 use meshbrush_core::build::{BuiltMesh, MeshSpec};
 use meshbrush_core::document::{Document, Setting, unused_name};
-use meshbrush_core::domain::{BoundaryMarks, MeshBoundary};
+use meshbrush_core::domain::BoundaryMarks;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     Combine, DistanceLayer, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, ShapeList, Shapes,
@@ -141,19 +140,8 @@ pub fn repaired<E>(
 /// Returns the broken rules that smaller triangles can mend. They are about the boundary and not about
 /// coordinates, so those of the plane are as good as those of the file.
 fn broken_in(extract: &Extract, spec: &MeshSpec, marks: &BoundaryMarks, solver: Solver) -> Vec<BrokenRule> {
-    let data = MeshData {
-        target_diameter: &[],
-        quantities: &[],
-        heights: None,
-        boundary: &MeshBoundary::new(extract, &spec.domain, marks),
-        parts: &[],
-        cells: CellShape::Triangles,
-        joined: &JoinedCells::default(),
-        parts_for: None,
-        provenance: &Provenance::default(),
-    };
     let mended = rules_of(solver).filter(|rule| rule.is_mended_by_size);
-    broken_among(mended, &WrittenMesh::of(extract, &data, solver))
+    broken_among(mended, &plain_mesh(extract, &spec.domain, marks, solver))
 }
 
 impl Finer {
