@@ -32,6 +32,10 @@ impl Folder {
         fs::read_to_string(self.0.join(name)).unwrap()
     }
 
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.0.join(name)).unwrap()
+    }
+
     pub fn has(&self, name: &str) -> bool {
         self.0.join(name).exists()
     }

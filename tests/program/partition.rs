@@ -97,6 +97,20 @@ fn other_formats_have_a_file_as_metis_writes_it() {
     assert!(largest - smallest <= 1);
     // Delft3D-FM gets squares: fewer cells.
     assert!(owners("sea.nc.part.4").len() < cells.len());
+    // UGRID has the same numbers in a variable: whole numbers of four bytes, the highest first.
+    let bytes = folder.bytes("sea.nc");
+    let row: Vec<u8> = owners("sea.nc.part.4")
+        .iter()
+        .flat_map(|&owner| u32::try_from(owner).unwrap().to_be_bytes())
+        .collect();
+    let has = |part: &[u8]| bytes.windows(part.len()).any(|window| window == part);
+    assert!(has(b"idomain") && has(&row));
+    let undivided = folder.run(format!("mesh {MESH} -o sea.nc"));
+    assert!(undivided.err.contains(" are too short for Delft3D-FM, "), "{}", undivided.err);
+    let bytes = folder.bytes("sea.nc");
+    assert!(!bytes.windows(7).any(|window| window == b"idomain"));
+    let other = folder.run(format!("mesh {MESH} -o sea.disv"));
+    assert!(other.err.contains(" are shorter than 0.09 of the width of their cells, "), "{}", other.err);
     assert!(!folder.has("sea.png.part.4"));
     for (options, sentence) in [
         ("--parts-for 0", "0 is not in 1.."),

@@ -65,6 +65,14 @@ fn a_scale_is_the_mesh_of_targets_and_limits_multiplied_by_it() {
             assert_eq!(graded(&plain, 0.2), graded(&multiplied, 0.2 * scale), "{scale}");
         }
     }
+    // So is the largest diameter at the outline, which is all that decides these sizes.
+    folder.file("sea.geojson", SEA);
+    let at_outline = |diameter: &str| {
+        let sea = "--region sea.geojson --projection auto --spacing 100000";
+        folder.json("mesh", format!("{sea} --boundary-diameter {diameter}").as_str())["hash"].clone()
+    };
+    assert_eq!(at_outline("20000 --scale 0.5"), at_outline("10000"));
+    assert_ne!(at_outline("20000"), at_outline("10000"));
     // h̄ in files is that of the mesh.
     folder.run("mesh --spacing 0.25 --target 0.2+x --scale 0.5 -o a.csv");
     folder.run("mesh --spacing 0.25 --target 0.5*(0.2+x) -o b.csv");

@@ -14,6 +14,7 @@ use super::standard_output::StandardOutput;
 use meshbrush_core::earth::DegreeStyle;
 use meshbrush_io::io::CellShape;
 use meshbrush_io::io::settings::SavedOutput;
+use meshbrush_io::io::solver_rules::Solver;
 use meshbrush_io::io::{
     DEPTH, KeyFault, MeshData, Meter, PartitionFigures, QuantityPlaces, ThirdCoordinate, obstacle,
 };
@@ -191,6 +192,11 @@ impl Output {
             CellShape::Triangles => false,
             CellShape::Squares => self.format.holds_squares(),
         }
+    }
+
+    /// Returns the solver that reads its format; `None` for a format of many programs.
+    pub fn solver(&self) -> Option<Solver> {
+        Solver::of_format(self.format.name())
     }
 
     /// Whether it is the binary form of a format that is text otherwise.

@@ -10,7 +10,7 @@ use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
 use meshbrush_core::build::{MeshBuilder, MeshSpec};
 use meshbrush_core::field::RefinementRule;
-use meshbrush_core::layers::{DistanceLayer, Layer, SizeFieldSpec};
+use meshbrush_core::layers::{DistanceLayer, Layer};
 use meshbrush_io::io::layers::{ListsInPlace, SavedLayer};
 use meshbrush_io::io::recipe;
 use meshbrush_io::io::settings::{SavedLimits, SavedSettings};
@@ -32,6 +32,9 @@ pub struct RepairSummary {
     h_min: Option<f64>,
     /// The layers that ask for it, above all others.
     layers: Vec<RepairLayer>,
+    /// The deepest level that a triangle may have, if there is one.
+    #[serde(skip)]
+    max_level: Option<u32>,
     #[serde(skip)]
     name: &'static str,
     #[serde(skip)]
@@ -74,7 +77,7 @@ pub fn build_for(
         )));
     }
     let repaired = repair(&read, solver, terminal)?;
-    let summary = RepairSummary::new(solver, &repaired, &read.spec.field);
+    let summary = RepairSummary::new(solver, &repaired, &read.spec);
     read.spec.field.layers.extend(repaired.layers);
     read.spec.field.transfer.h_min = repaired.h_min.unwrap_or(read.spec.field.transfer.h_min);
     Ok((build_from(read, terminal)?, Some(summary)))
@@ -91,12 +94,12 @@ fn repair(read: &ToMesh, solver: Solver, terminal: &mut Terminal) -> Result<Repa
 }
 
 impl RepairSummary {
-    fn new(solver: Solver, repaired: &Repaired, before: &SizeFieldSpec) -> Self {
+    fn new(solver: Solver, repaired: &Repaired, before: &MeshSpec) -> Self {
         let Repaired { layers, h_min, bisected, left: _ } = repaired;
         let saved = layers.iter().map(|layer| SavedLayer::of(layer, None, ListsInPlace::ALL)).collect();
         // Without a value of its own, the diameter at risk 1 would become less, too.
-        let has_risk = before.layers.iter().any(Layer::is_of_risk);
-        let h_risk = h_min.filter(|_| has_risk).map(|_| before.transfer.h_risk.into());
+        let has_risk = before.field.layers.iter().any(Layer::is_of_risk);
+        let h_risk = h_min.filter(|_| has_risk).map(|_| before.field.transfer.h_risk.into());
         let limits = SavedLimits { h_min: h_min.map(Into::into), h_risk, ..SavedLimits::default() };
         let recipe = recipe::to_text(&SavedSettings { layer: saved, limits, ..SavedSettings::default() });
         let start = recipe.find('[').unwrap_or(recipe.len());
@@ -104,6 +107,7 @@ impl RepairSummary {
             solver: solver.word(),
             bisected: *bisected,
             left: repaired.places_left(),
+            max_level: before.limits.max_level,
             layers: layers.iter().filter_map(RepairLayer::of).collect(),
             name: solver.name(),
             h_min: *h_min,
@@ -118,10 +122,14 @@ impl RepairSummary {
             1 => "1 triangle was".to_owned(),
             count => format!("{} triangles were", Grouped(count)),
         };
+        let why = match self.max_level {
+            None => "where smaller triangles do not help".to_owned(),
+            Some(level) => format!("where smaller triangles do not help or level {level} is the deepest"),
+        };
         let left = match self.left {
             0 => String::new(),
-            1 => "; 1 place is left, where smaller triangles do not help".to_owned(),
-            count => format!("; {} places are left, where smaller triangles do not help", Grouped(count)),
+            1 => format!("; 1 place is left, {why}"),
+            count => format!("; {} places are left, {why}", Grouped(count)),
         };
         format!("For {} {triangles} bisected once more{left}.", self.name)
     }

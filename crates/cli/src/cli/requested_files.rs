@@ -14,9 +14,10 @@ use super::output_keys::{check_use, depth_changes_of, quantities_of};
 use super::quantities::{NamedQuantity, typed_quantities};
 use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
-use meshbrush_core::cells::{LARGEST_COSINE, LinkFigures};
+use meshbrush_core::cells::{LARGEST_COSINE, LEAST_SHARE, LinkFigures};
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
+use meshbrush_io::io::solver_rules::Solver;
 use meshbrush_io::io::{
     CellShape, Interruption, JoinedCells, KeyFault, MeshData, Meter, NodeValues, SURFACE, UnknownCells,
     joined_cells, joined_links,
@@ -304,9 +305,13 @@ fn links_in_words(output: &Output, mesh: &Extract, data: &MeshData) -> String {
     let LinkFigures { links, short, skewed, not_orthogonal, .. } = joined_links(mesh, data);
     let joined = cells.joined_count();
     let share = 100.0 * not_orthogonal as f64 / links.max(1) as f64;
+    let too_short = match output.solver() {
+        Some(Solver::Delft3dFm) => "are too short for Delft3D-FM".to_owned(),
+        _ => format!("are shorter than {} of the width of their cells", digits(LEAST_SHARE, 2)),
+    };
     format!(
-        "{} has {} quadrilaterals and {} triangles. Of {} links between them {} are too short for Delft3D-FM, {} cross \
-         their edge with a cosine above {LARGEST_COSINE}, and {} % with one above 0.02.",
+        "{} has {} quadrilaterals and {} triangles. Of {} links between them {} {too_short}, {} cross their edge with a \
+         cosine above {LARGEST_COSINE}, and {} % with one above 0.02.",
         output.name(),
         Grouped(joined),
         Grouped(cells.list().len() - joined),
