@@ -155,7 +155,8 @@ fn without_strips(
     let mut spec = origin.spec.clone();
     loop {
         let (made, ..) = built(spec.clone(), &origin.paint, watch)?;
-        let derived = DerivedMesh::new(&made.mesh, &made.domain, &spec.cleaning);
+        let targets = made.edge_targets(&origin.paint);
+        let derived = DerivedMesh::new(&made.mesh, &made.domain, targets, &spec.cleaning);
         if !cutting.look(&derived.extract(&made.mesh), &spec.domain, &origin.marks) {
             return Ok((spec.domain, (cutting.cut(), cutting.left().len())));
         }
