@@ -59,7 +59,7 @@ impl DepthChanges {
         *self == Self::default()
     }
 
-    /// Returns these changes, and for what they leave open those of another.
+    /// Returns these changes; where they ask for nothing, those of another.
     pub fn or(self, other: Self) -> Self {
         Self { least: self.least.or(other.least), slope: self.slope.or(other.slope) }
     }

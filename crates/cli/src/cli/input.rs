@@ -45,7 +45,7 @@ pub struct Input {
     lengths: Vec<LengthWithUnit>,
     /// What all sizes are multiplied by.
     scale: f64,
-    /// Whether notes on the files were told before.
+    /// Whether the notes on the files have been shown already.
     pub is_quiet: bool,
 }
 
@@ -204,7 +204,7 @@ impl Input {
         Ok((settings, document.paint().clone()))
     }
 
-    /// Tells notes on the files, unless they were told before.
+    /// Shows notes on the files, unless they have been shown already.
     fn tell(&self, notes: &[String], terminal: &mut Terminal) {
         notes.iter().filter(|_| !self.is_quiet).for_each(|note| terminal.note(note));
     }

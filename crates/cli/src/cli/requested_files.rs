@@ -394,8 +394,8 @@ impl RequestedFiles {
         let is_idle = self.changes_by_keys && (least.is_some(), slope.is_some()) != changed.kinds();
         let name = self.outputs.first().filter(|_| is_idle)?.name();
         Some(format!(
-            "{name} has no depths, so its least_depth and depth_slope change nothing: a layer of depths, or a quantity of \
-             the name depth, gives it some."
+            "{name} has no depths, so its least_depth and depth_slope change nothing. Add a layer of depths, or a \
+             quantity called depth."
         ))
     }
 

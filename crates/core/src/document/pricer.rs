@@ -262,9 +262,7 @@ impl Pricer {
         self.counted = Some(counting.forecast);
         PricerState::Known(price)
     }
-}
 
-impl Pricer {
     fn make_more(
         &mut self,
         mut making: Box<RebuildPrice>,
@@ -318,6 +316,7 @@ pub(super) fn price_of<E>(progress: Result<Progress, E>, forecast: &Forecast) ->
 
 /// Returns why a stroke that changes pixels changes no triangle, judged where it ends.
 fn why_nothing(question: StrokeQuestion, paint: &PaintLayers, follower: &Follower) -> NoChange {
+    // h̄ says nothing about errors.
     if let Medium::Error(_) = question.plan.brush.medium {
         return NoChange::TrianglesFit;
     }

@@ -22,7 +22,9 @@ impl RebuildPrice {
     /// Returns the work, in the memory of `spare`; `None` for a mesh that is too large.
     pub(super) fn new(paint: PaintLayers, follower: &Follower, spare: Option<Mesh>) -> Option<Self> {
         let shown = follower.mesh().raw_triangle_count();
-        let limits = Limits { max_triangles: shown + Price::MOST, ..follower.settings().limits() };
+        // Where the document has no room for the triangles, their number is still wanted.
+        let max_triangles = shown + Price::MOST;
+        let limits = Limits { max_triangles, max_memory: None, ..follower.settings().limits() };
         let rebuild = (shown <= MOST_SHOWN).then(|| follower.rebuild_within(limits, spare))?.ok()?;
         Some(Self { rebuild, paint })
     }

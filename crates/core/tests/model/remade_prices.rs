@@ -1,7 +1,7 @@
 //! The price of a stroke where every edit makes another mesh: close to a surface, and by the vertex rule.
 
 use glam::dvec2;
-use meshbrush_core::document::{Document, Follower, NoChange, Price, Pricer, Settings, Stage};
+use meshbrush_core::document::{Document, Follower, LEAST_MEMORY, NoChange, Price, Pricer, Settings, Stage};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{
     Layer, LayerId, LayerKind, Quantity, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
@@ -88,4 +88,21 @@ fn an_error_that_the_mesh_keeps_already_is_no_matter_of_diameters() {
     let dab = StrokePlan::click(brush, dvec2(0.93, 0.07));
     let found = price(&mut Pricer::default(), dab, &document, &follower);
     assert_eq!(found, Price::Nothing(NoChange::TrianglesFit));
+}
+
+/// The price was said to be over 500,000 where less was too much for the memory of the document.
+#[test]
+fn a_price_that_the_memory_of_the_document_has_no_room_for_is_counted() {
+    let (layers, max_memory) = (close_to_a_surface(), LEAST_MEMORY);
+    let settings = Settings { spacing: 0.2, layers, max_memory, ..Settings::default() };
+    let room = settings.limits().most_triangles();
+    let mut document = Document::new(settings, None).unwrap();
+    let follower = Follower::new(&mut document).unwrap();
+    let medium = Medium::Diameter(0.0024, DiameterChange::Finer);
+    let brush = Brush { medium, radius: 0.12, hardness: 1.0, strength: 1.0 };
+    let dab = StrokePlan::click(brush, dvec2(0.5, 0.5));
+    match price(&mut Pricer::default(), dab, &document, &follower) {
+        Price::Change(change) => assert!(change > room as i64, "{change} of {room}"),
+        other => panic!("{other:?} beside a room of {room}"),
+    }
 }

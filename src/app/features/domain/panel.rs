@@ -5,6 +5,7 @@ use eframe::egui::{Id, Ui};
 use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::field::RefinementRule;
 use meshbrush_kit::kit::command::{Command, EditCommand, FileCommand};
 use meshbrush_kit::kit::{
     FormulaRow, FrameState, Panel, Tab, button_rows, end_gesture_when_released, remark, set_once,
@@ -60,6 +61,9 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     remark(
         ui,
         match settings.boundary {
+            BoundaryTreatment::OnOutline { .. } if settings.rule == RefinementRule::Vertex => {
+                "Nodes lie on the outline. Features narrower than the triangles there vanish or join."
+            }
             BoundaryTreatment::OnOutline { .. } => {
                 "Nodes lie on the outline, and no edge is longer than its target. Features narrower than the triangles there vanish or join."
             }
