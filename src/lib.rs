@@ -30,9 +30,9 @@ pub use meshbrush_core::build::{
 #[doc(inline)]
 pub use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutFrame,
-    CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, MOST_CORNERS,
-    MeshBoundary, NamedPolygon, OutlineOnEarth, PieceChoice, PieceFigures, PieceRun, PixelLengths, Polygon,
-    Region, RegionError, RegionOnLattice, Ring,
+    CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, FormulaShape,
+    MOST_CORNERS, MeshBoundary, NamedPolygon, OutlineOnEarth, PieceChoice, PieceFigures, PieceRun,
+    PixelLengths, Polygon, Region, RegionError, RegionOnLattice, Ring, ZeroLineError,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;

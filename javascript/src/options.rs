@@ -92,8 +92,10 @@ pub fn changed(options: Table<'_>, settings: Settings) -> Result<Settings, JsErr
     let spacing = options.length("spacing")?.unwrap_or(settings.spacing);
     let treatment = options.word("boundary", &Treatment::WORDS)?;
     let diameter = options.length("boundaryDiameter")?;
-    if (treatment.is_some() || diameter.is_some()) && settings.domain.region().is_none() {
-        return Err(error("boundary and boundaryDiameter are for the outline of polygons: leave them out."));
+    if (treatment.is_some() || diameter.is_some()) && settings.domain.is_whole() {
+        return Err(error(
+            "boundary and boundaryDiameter are for the outline of polygons or of a formula: leave them out.",
+        ));
     }
     let treatment = treatment.unwrap_or(Treatment::of(settings.boundary));
     if diameter.is_some() && treatment == Treatment::Report {
@@ -177,6 +179,6 @@ fn domain_of(domain: Table<'_>) -> Result<(Domain, BoundaryMarks), JsError> {
     }
     let bounds: Rect = domain.needed("bounds", bounds)?;
     let inside = domain.text("inside")?.map(|text| compiled("inside", &text, Formula::parse)).transpose()?;
-    let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
+    let shape = inside.map_or(DomainShape::Whole, DomainShape::from);
     Ok((Domain { bounds, shape, projection: None }, BoundaryMarks::default()))
 }

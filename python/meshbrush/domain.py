@@ -82,8 +82,8 @@ class Domain:
     def formula(cls, inside: str, bounds: Sequence[float]) -> Domain:
         """Returns where a formula in `x`, `y`, `r` and `theta` is not 0, in the rectangle x0, y0, x1, y1.
 
-        It is made of the coarse triangles at whose three corners the formula is not 0: `spacing` decides how near its
-        boundary is.
+        Nodes lie on the line where the formula becomes 0 or NaN. With `boundary="report"` the domain is made of the
+        coarse triangles at whose three corners it is not 0.
         """
         return cls._of(bounds=[float(side) for side in bounds], inside=inside)
 

@@ -198,7 +198,7 @@ impl Document {
         all.set_item("max_triangles", settings.max_triangles)?;
         all.set_item("max_memory", settings.max_memory)?;
         all.set_item("max_level", settings.max_level)?;
-        let boundary = settings.domain.region().and(saved.domain.boundary);
+        let boundary = saved.domain.boundary;
         all.set_item("boundary", boundary.as_ref().map(word_of))?;
         all.set_item("boundary_diameter", boundary.and(settings.boundary.diameter()))?;
         all.set_item("projection", settings.domain.projection.map(|projection| projection.to_string()))?;

@@ -238,7 +238,7 @@ impl Mesh {
 
     /// Sentences about what the mesh does not keep.
     fn notes(&self) -> Vec<String> {
-        self.0.finished.surface_note().into_iter().collect()
+        self.0.finished.notes().collect()
     }
 
     #[getter]

@@ -95,7 +95,7 @@ fn domain(random: &mut fastrand::Rng) -> Domain {
     let polygons = Domain::of_polygons(&[vec![coast, hole], vec![islet]]).unwrap();
     match random.u8(..5) {
         0 => Domain::rectangle(square),
-        1 => Domain { bounds: square, shape: DomainShape::Formula(formula("x*y < 3")), projection: None },
+        1 => Domain { bounds: square, shape: formula("x*y < 3").into(), projection: None },
         2 => polygons.with_bounds(Rect::new(dvec2(-0.5, -0.25), dvec2(4.5, 4.5))),
         3 => Domain { projection: Some("+proj=lcc +lat_0=50.5 +lon_0=9.1".parse().unwrap()), ..polygons },
         _ => polygons,
@@ -427,29 +427,29 @@ fn options(settings: &Settings) -> Vec<String> {
     let Rect { min, max } = settings.domain.bounds;
     let bounds = format!("{},{},{},{}", min.x, min.y, max.x, max.y);
     match &settings.domain.shape {
-        DomainShape::Region(_) => {
-            add("region", "a-domain.geojson".into());
-            let (treatment, diameter) = match settings.boundary {
-                BoundaryTreatment::Fitted { diameter } => ("fitted", Some(diameter)),
-                BoundaryTreatment::OnOutline { diameter } => ("outline", Some(diameter)),
-                _ => ("report", None),
-            };
-            add("boundary", treatment.into());
-            if let Some(diameter) = diameter {
-                add("boundary-diameter", diameter.to_string());
-                let parts = match settings.cleaning.parts {
-                    KeptParts::All => "all".to_owned(),
-                    KeptParts::Share(share) => share.to_string(),
-                    _ => "largest".to_owned(),
-                };
-                add("parts", parts);
-            }
-        }
-        DomainShape::Formula(formula) => {
+        DomainShape::Region(_) => add("region", "a-domain.geojson".into()),
+        DomainShape::Formula(shape) => {
             add("domain", bounds);
-            add("inside", formula.source().into());
+            add("inside", shape.formula().source().into());
         }
         _ => add("domain", bounds),
+    }
+    if !settings.domain.is_whole() {
+        let (treatment, diameter) = match settings.boundary {
+            BoundaryTreatment::Fitted { diameter } => ("fitted", Some(diameter)),
+            BoundaryTreatment::OnOutline { diameter } => ("outline", Some(diameter)),
+            _ => ("report", None),
+        };
+        add("boundary", treatment.into());
+        if let Some(diameter) = diameter {
+            add("boundary-diameter", diameter.to_string());
+            let parts = match settings.cleaning.parts {
+                KeptParts::All => "all".to_owned(),
+                KeptParts::Share(share) => share.to_string(),
+                _ => "largest".to_owned(),
+            };
+            add("parts", parts);
+        }
     }
     add("spacing", settings.spacing.to_string());
     add("h-min", settings.transfer.h_min.to_string());
@@ -468,7 +468,7 @@ fn options(settings: &Settings) -> Vec<String> {
             other => unreachable!("no option names {other:?}"),
         }
     }
-    if settings.cleaning.keeps_pinches && settings.boundary != BoundaryTreatment::Report {
+    if settings.cleaning.keeps_pinches && settings.is_fitted() {
         options.push("--keep-pinches".into());
     }
     options

@@ -9,8 +9,7 @@ use std::time::Instant;
 use glam::dvec2;
 use meshbrush_core::document::{Document, Example, Follower, KeepOut, PathCost, PathPlan, Settings, Stage};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape,
-    OutlineOnEarth,
+    BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, OutlineOnEarth,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
@@ -164,7 +163,7 @@ fn documents() -> Vec<Document> {
     let picture = Settings {
         domain: Domain {
             bounds: Rect::new(dvec2(-1.0, 0.1), dvec2(1.0, 0.7)),
-            shape: DomainShape::Formula(formula("r < 0.9")),
+            shape: formula("r < 0.9").into(),
             projection: None,
         },
         boundary: BoundaryTreatment::Report,

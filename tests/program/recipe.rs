@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::folder::{Folder, Ran};
 use glam::dvec2;
 use meshbrush::{
-    BoundaryMarks, BoundaryType, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect,
+    BoundaryMarks, BoundaryType, Document, Domain, Formula, Layer, LayerKind, LengthUnit, Project, Rect,
     Settings, write_geojson, write_project,
 };
 use meshbrush_io::io::layers::{SavedKind, SavedLayer};
@@ -272,7 +272,7 @@ fn the_recipe_of_a_document_gives_its_mesh() {
     let names = vec![(dvec2(1.0, 1.5), "rock".to_owned())];
     let types = vec![(dvec2(1.0, 1.5), BoundaryType::NaturalLand), (dvec2(4.0, 0.5), BoundaryType::Inflow)];
     let marks = BoundaryMarks { splits: vec![dvec2(4.0, 1.0)], names, types };
-    let formula = Domain { shape: DomainShape::Formula("x*y < 3".parse().unwrap()), ..domain.clone() };
+    let formula = Domain { shape: "x*y < 3".parse::<Formula>().unwrap().into(), ..domain.clone() };
     let wider = domain.with_bounds(Rect::new(dvec2(-1.0, -0.5), dvec2(4.5, 4.5)));
     let frame = domain.bounds;
     for domain in [domain, wider, formula, Domain::rectangle(frame)] {

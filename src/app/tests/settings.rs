@@ -147,7 +147,7 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Bounds(meshbrush_mesh::geometry::Rect::new(DVec2::ONE, DVec2::ZERO)),
         Setting::Domain(Domain {
             bounds: meshbrush_mesh::geometry::Rect::UNIT,
-            shape: DomainShape::Formula(Formula::parse("x > 9").unwrap()),
+            shape: DomainShape::from(Formula::parse("x > 9").unwrap()),
             projection: None,
         }),
     ] {

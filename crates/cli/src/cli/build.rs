@@ -110,9 +110,10 @@ impl FinishedMesh {
         self.derived.extract(self.mesh())
     }
 
-    /// Returns the polygons of the domain, if it has some.
-    pub fn region(&self) -> Option<&Region> {
-        self.origin.spec.domain.region().map(|region| &**region)
+    /// Returns the polygons that the mesh meets, if there are some: those of the domain, or the zero line of its
+    /// formula.
+    pub fn outline(&self) -> Option<Arc<Region>> {
+        self.origin.spec.domain.outline(self.origin.spec.boundary)
     }
 
     /// Returns the boundary of the mesh as files get it, in named pieces.
@@ -226,8 +227,15 @@ impl FinishedMesh {
         self.built.field.edge_lengths()
     }
 
+    /// Returns sentences about what the document asks for and the mesh does not have.
+    pub fn notes(&self) -> impl Iterator<Item = String> {
+        let spec = &self.origin.spec;
+        let line = spec.domain.outline_error(spec.boundary).map(|error| error.to_string());
+        line.into_iter().chain(self.surface_note())
+    }
+
     /// Returns a sentence where a surface asks for fewer triangles than coarse grid and sizes need.
-    pub fn surface_note(&self) -> Option<String> {
+    fn surface_note(&self) -> Option<String> {
         let most = self.built.surface.as_ref()?.exceeded_count()?;
         Some(format!(
             "A mesh of at most {} triangles, as the surface asks for, cannot be made: without the surface it has {} already. \
@@ -287,9 +295,7 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
     let derive = || DerivedMesh::new(&built.mesh, &built.domain, targets, &origin.spec.cleaning);
     let derived = terminal.while_working("fitting the mesh to its domain", derive);
     let finished = FinishedMesh::new(built, derived, origin, refinement, capped)?;
-    if let Some(note) = finished.surface_note() {
-        terminal.note(&note);
-    }
+    finished.notes().for_each(|note| terminal.note(&note));
     Ok(finished)
 }
 

@@ -92,7 +92,7 @@ impl Input {
         match &typed.boundary_diameter {
             // Of a project the domain is not known yet.
             Some(diameter) if typed.project.is_none() => {
-                let has_outline = settings.domain.outline_file().is_some();
+                let has_outline = settings.domain.has_outline();
                 check_boundary_diameter(diameter, has_outline, settings.domain.boundary)?;
             }
             _ => {}
@@ -186,12 +186,12 @@ impl Input {
         let (meter, reading) = (Meter::default(), format!("reading {}", path.display()));
         let document = terminal.while_metered(&reading, &meter, || project::read_metered(path, &meter))?;
         let options = &self.settings.domain;
-        let has_outline = document.settings().domain.region().is_some();
+        let has_outline = !document.settings().domain.is_whole();
         if let Some(diameter) = options.boundary_diameter {
             let stored = SavedTreatment::of(document.settings().boundary);
             check_boundary_diameter(*diameter, has_outline, Some(options.boundary.unwrap_or(stored)))?;
         } else if options.boundary.is_some() && !has_outline {
-            let note = "--boundary changes nothing: the domain of the project has no polygons.";
+            let note = "--boundary changes nothing: the domain of the project is a rectangle.";
             self.tell(&[note.to_owned()], terminal);
         }
         let own = document.settings().clone();
@@ -230,7 +230,7 @@ fn check_boundary_diameter(
     boundary: Option<SavedTreatment>,
 ) -> Result<(), Failure> {
     let problem = if !has_outline {
-        "it is for the outline of a domain from a file. Name that with --region, or leave it out"
+        "it is for the outline of a domain. Name a file with --region or a formula with --inside, or leave it out"
     } else if boundary == Some(SavedTreatment::Report) {
         "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
     } else {

@@ -22,7 +22,7 @@ use super::path_proof::{About, Proof, task, write_certificate};
 use super::points::TypedPoint;
 use super::terminal::Terminal;
 use meshbrush_core::document::{PathCost, PathPlan};
-use meshbrush_core::domain::Domain;
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::{Coordinates, EarthPlane, Projection, Speed, hours_and_minutes, metres_along};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
@@ -71,7 +71,7 @@ pub fn run(
     let extract = finished.extract();
     let density = asked.cost.density(finished.risk(), finished.domain())?;
     let start = Instant::now();
-    let area = asked.area(finished.domain())?;
+    let area = asked.area(finished.domain(), finished.spec().boundary)?;
     let search = || asked.path(&*density, extract.view(), &area);
     let (mut solution, mesh) = terminal
         .while_working("finding the path", search)
@@ -145,8 +145,8 @@ impl RequestedPath {
     }
 
     /// Returns where the path may go.
-    fn area(&self, domain: &Domain) -> Result<PathArea, PathError> {
-        PathArea::new(domain, self.keep_out.clone(), self.clearance)
+    fn area(&self, domain: &Domain, boundary: BoundaryTreatment) -> Result<PathArea, PathError> {
+        PathArea::new(domain, boundary, self.keep_out.clone(), self.clearance)
     }
 
     /// Returns what a certificate is about.

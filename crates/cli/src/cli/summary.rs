@@ -14,7 +14,7 @@ use super::details::{
 use super::partition::PartitionSummary;
 use super::quality::QualitySummary;
 use super::sequence::SequenceMesh;
-use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
+use meshbrush_core::domain::{FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::outline::OutlineFit;
@@ -102,7 +102,7 @@ pub struct Summary {
 }
 
 /// Nodes along the outline of a region.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct OutlineNodes {
     /// Nodes of the boundary along the outline.
     pub boundary: usize,
@@ -112,12 +112,19 @@ pub struct OutlineNodes {
     pub farthest: f64,
     /// Sharp corners of the polygons that are nodes.
     pub corners: usize,
+    /// Of a domain by a formula: corners of its line, turning by more than 30°, at which there is no node.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missed_corners: Option<Vec<[f64; 2]>>,
 }
 
 impl OutlineNodes {
-    fn new(fit: OutlineFit, domain: &Domain) -> Self {
-        let OutlineFit { nodes, on_outline, farthest, corners } = fit;
-        Self { boundary: nodes, on_outline, farthest: domain.longest_on_earth(farthest), corners }
+    fn of(finished: &FinishedMesh, extract: &Extract) -> Option<Self> {
+        let OutlineFit { nodes, on_outline, farthest, corners } = finished.derived.fit()?;
+        let domain = finished.domain();
+        let line = domain.formula().and_then(|_| finished.outline());
+        let missed = line.map(|line| line.missed_corners(extract).into_iter().map(Into::into).collect());
+        let farthest = domain.longest_on_earth(farthest);
+        Some(Self { boundary: nodes, on_outline, farthest, corners, missed_corners: missed })
     }
 
     fn for_people(&self) -> String {
@@ -125,8 +132,17 @@ impl OutlineNodes {
             0 => String::new(),
             _ => format!(", the others at most {} off", short(self.farthest)),
         };
+        let missed = match self.missed_corners.as_deref() {
+            None | Some([]) => String::new(),
+            Some([first, others @ ..]) => format!(
+                ", no node at {} of the line, the first at {}, {}",
+                counted(1 + others.len(), "sharp corner"),
+                short(first[0]),
+                short(first[1])
+            ),
+        };
         format!(
-            "{} of {} boundary nodes on the outline{off}\n",
+            "{} of {} boundary nodes on the outline{off}{missed}\n",
             Grouped(self.on_outline),
             Grouped(self.boundary),
         )
@@ -312,7 +328,7 @@ impl Summary {
         let mesh = finished.mesh();
         let levels = extract.level_counts();
         let ground = finished.ground();
-        let region = finished.region();
+        let region = finished.outline();
         let boundary = details.map(|details| &details.boundary);
         let fit = match details {
             Some(details) => details.surface.clone(),
@@ -326,8 +342,8 @@ impl Summary {
                 None if !extract.is_patched() => mesh.area(),
                 _ => ground.mesh_area(extract),
             },
-            outline_nodes: finished.derived.fit().map(|fit| OutlineNodes::new(fit, finished.domain())),
-            outline: region.map(|region| Outline::of(finished, extract, region, boundary)),
+            outline_nodes: OutlineNodes::of(finished, extract),
+            outline: region.map(|region| Outline::of(finished, extract, &region, boundary)),
             boundary: boundary.map(PieceSummary::of_present),
             lost_pieces: boundary.map(LostPiece::all),
             part_triangles: details.map(MeshDetails::part_triangles),

@@ -75,9 +75,9 @@ impl Settings {
             rule: old_rule,
             max_level: old_max_level,
         } = old;
-        // Only polygons are met in one way or another; nodes are moved onto them in the derived mesh.
+        // Only an outline is met in one way or another; nodes are moved onto it in the derived mesh.
         let is_fitted_alike = boundary.diameter() == old_boundary.diameter()
-            || [domain, old_domain].iter().all(|domain| domain.region().is_none());
+            || [domain, old_domain].iter().all(|domain| domain.is_whole());
         let outline = domain != old_domain;
         // The deepest level is part of the rule of an update.
         let has_other_rule = rule != old_rule || max_level != old_max_level;

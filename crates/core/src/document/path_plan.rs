@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::domain::Domain;
+use crate::domain::{BoundaryTreatment, Domain};
 use crate::field::CostFormula;
 use crate::layers::{Mask, RiskField};
 use crate::path::{
@@ -149,12 +149,12 @@ impl PathPlan {
         })
     }
 
-    /// Returns the part of a domain where the paths may go.
+    /// Returns the part of a domain where the paths may go, for a way of treating its boundary.
     ///
     /// # Errors
     /// Fails when the clearance is negative, NaN or infinite.
-    pub fn area(&self, domain: &Domain) -> Result<PathArea, PathError> {
-        PathArea::new(domain, self.keep_out_masks(), self.clearance)
+    pub fn area(&self, domain: &Domain, boundary: BoundaryTreatment) -> Result<PathArea, PathError> {
+        PathArea::new(domain, boundary, self.keep_out_masks(), self.clearance)
     }
 
     /// Returns the area of each keep-out region.

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::{Background, PathPlan, layers};
 use crate::build::MeshSpec;
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, Region};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{
@@ -355,14 +355,19 @@ impl Settings {
         }
     }
 
-    /// Which triangles stay in the derived mesh: all, unless the mesh is fitted to polygons.
+    /// Which triangles stay in the derived mesh: all, unless the mesh is fitted to an outline.
     pub fn derived_cleaning(&self) -> Cleaning {
         if self.is_fitted() { self.cleaning } else { Cleaning::NONE }
     }
 
-    /// Returns whether the mesh is fitted to polygons.
+    /// Returns whether the mesh is fitted to an outline, where that can be followed.
     pub fn is_fitted(&self) -> bool {
-        self.domain.region().is_some() && self.boundary != BoundaryTreatment::Report
+        !self.domain.is_whole() && self.boundary != BoundaryTreatment::Report
+    }
+
+    /// Returns the polygons that the mesh meets, as [`Domain::outline`] does.
+    pub fn outline(&self) -> Option<Arc<Region>> {
+        self.domain.outline(self.boundary)
     }
 
     /// Returns the limits of the size of the mesh.

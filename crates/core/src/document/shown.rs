@@ -276,7 +276,8 @@ impl Shown {
         let is_current =
             same_lattice && self.field.spec().asks_as(&spec.field) && spec.rule == self.settings.rule;
         let field = is_current.then(|| self.field.clone());
-        let domain = same_domain.then(|| self.domain.clone());
+        let domain =
+            Some(&self.domain).filter(|domain| same_domain && domain.serves(wanted.boundary)).cloned();
         let has_same_samples = same_domain && SurfaceSamples::are_same(&wanted.layers, &self.settings.layers);
         let samples = self.surface.as_ref().filter(|_| has_same_samples).map(|rule| rule.samples().clone());
         Ok(Rebuild::new(wanted, spec, Parts { domain, field, samples, spare }))

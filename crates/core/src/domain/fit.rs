@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::region_builder::RegionOnLatticeBuilder;
-use super::{Domain, RegionOnLattice};
+use super::zero_line::{ZeroLine, ZeroLineTracer};
+use super::{Domain, DomainShape, FormulaShape, RegionOnLattice};
 use crate::earth::EdgeLengths;
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
@@ -67,7 +68,55 @@ pub struct DomainOnLatticeBuilder {
     /// All but the region.
     indexed: DomainOnLattice,
     boundary: BoundaryTreatment,
-    region: Option<RegionOnLatticeBuilder>,
+    outline: OutlineWork,
+}
+
+/// The work that the outline of a domain needs.
+#[derive(Clone, Debug)]
+enum OutlineWork {
+    /// There is none, or none that is followed.
+    Nothing,
+    /// The zero line of a formula in a rectangle is followed first.
+    Tracing(FormulaShape, Rect, Box<ZeroLineTracer>),
+    Indexing(Box<RegionOnLatticeBuilder>),
+}
+
+impl OutlineWork {
+    fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
+        match &domain.shape {
+            DomainShape::Whole => Self::Nothing,
+            DomainShape::Formula(_) if boundary == BoundaryTreatment::Report => Self::Nothing,
+            DomainShape::Formula(shape) => match shape.known_outline(&domain.bounds) {
+                Some(outline) => Self::indexing(outline, lattice),
+                None => {
+                    let tracer = ZeroLineTracer::new(shape.formula().clone(), domain.bounds);
+                    Self::Tracing(shape.clone(), domain.bounds, Box::new(tracer))
+                }
+            },
+            DomainShape::Region(region) => Self::indexing(Ok(region.clone()), lattice),
+        }
+    }
+
+    fn indexing(outline: ZeroLine, lattice: &Lattice) -> Self {
+        outline.map_or(Self::Nothing, |region| {
+            Self::Indexing(Box::new(RegionOnLatticeBuilder::new(&region, lattice)))
+        })
+    }
+
+    /// One slice of work: about `budget` edges of the outline.
+    fn advance(&mut self, budget: usize, lattice: &Lattice) -> Progress {
+        match self {
+            Self::Nothing => Progress::Done,
+            Self::Tracing(shape, bounds, tracer) => {
+                if tracer.advance() == Progress::Done {
+                    let outline = shape.keep_outline(*bounds, tracer.clone().finish());
+                    *self = Self::indexing(outline, lattice);
+                }
+                Progress::More
+            }
+            Self::Indexing(region) => region.advance(budget),
+        }
+    }
 }
 
 impl DomainOnLatticeBuilder {
@@ -93,18 +142,21 @@ impl DomainOnLatticeBuilder {
             edge_lengths,
             on_outline: false,
         };
-        let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));
-        Self { indexed, boundary, region }
+        Self { indexed, boundary, outline: OutlineWork::new(domain, boundary, lattice) }
     }
 
     /// One slice of work: about `budget` edges of the outline.
     pub fn advance(&mut self, budget: usize) -> Progress {
-        self.region.as_mut().map_or(Progress::Done, |region| region.advance(budget))
+        self.outline.advance(budget, &self.indexed.lattice)
     }
 
     /// Returns the domain. Work that is left is done in one go.
-    pub fn finish(self) -> DomainOnLattice {
-        let region = self.region.map(|region| Arc::new(region.finish()));
+    pub fn finish(mut self) -> DomainOnLattice {
+        while self.advance(usize::MAX) == Progress::More {}
+        let region = match self.outline {
+            OutlineWork::Indexing(region) => Some(Arc::new(region.finish())),
+            OutlineWork::Nothing | OutlineWork::Tracing(..) => None,
+        };
         DomainOnLattice { region, ..self.indexed }.with_boundary(self.boundary)
     }
 }
@@ -126,13 +178,20 @@ pub struct DomainOnLattice {
 }
 
 impl DomainOnLattice {
-    /// Indexes a domain on a lattice that covers its bounds, in one step. Only a region can be fitted; a
-    /// formula is treated as in the report.
+    /// Indexes a domain on a lattice that covers its bounds, in one step. A formula whose zero line cannot be
+    /// followed is treated as in the report.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
     }
 
-    /// Returns this domain on this lattice, with another treatment of its boundary.
+    /// Returns whether [`Self::with_boundary`] gives what [`Self::new`] does: the zero line of a formula is not
+    /// known where no treatment has asked for it.
+    pub fn serves(&self, boundary: BoundaryTreatment) -> bool {
+        boundary == BoundaryTreatment::Report || self.formula.is_none() || self.region.is_some()
+    }
+
+    /// Returns this domain on this lattice, with another treatment of its boundary. Of a formula, that must be
+    /// one that it [`serves`](Self::serves).
     pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
         let fitted = boundary.diameter().filter(|_| self.region.is_some());
         let on_outline = fitted.is_some() && matches!(boundary, BoundaryTreatment::OnOutline { .. });

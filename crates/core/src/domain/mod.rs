@@ -11,6 +11,10 @@ mod outline;
 mod outline_query;
 mod region;
 mod region_builder;
+mod marching;
+mod zero_line;
+mod formula_shape;
+mod missed_corners;
 mod cut_frame;
 mod cut_search;
 mod cut_shape;
@@ -49,12 +53,14 @@ pub use depth_contour::{DepthContour, DepthContourError, PixelLengths};
 pub use file_frame::FileFrame;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::{FitComparison, FitQuality};
+pub use formula_shape::FormulaShape;
 pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::RegionOutline;
 pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners};
 pub use sea::{Land, Sea, SeaError, WaterSide};
+pub use zero_line::ZeroLineError;
 
 /// Scales that differ from 1 by less than this are 1.
 const TRUE_TO_SCALE: f64 = 1e-9;
@@ -121,9 +127,15 @@ pub enum DomainShape {
     /// All of it.
     Whole,
     /// The part where the formula is neither zero nor NaN.
-    Formula(Formula),
+    Formula(FormulaShape),
     /// The part that polygons cover.
     Region(Arc<Region>),
+}
+
+impl From<Formula> for DomainShape {
+    fn from(formula: Formula) -> Self {
+        Self::Formula(formula.into())
+    }
 }
 
 impl Domain {
@@ -238,11 +250,40 @@ impl Domain {
         }
     }
 
+    /// Returns whether it is all of its rectangle.
+    pub fn is_whole(&self) -> bool {
+        matches!(self.shape, DomainShape::Whole)
+    }
+
     /// Returns the region, if the domain is given by polygons.
     pub fn region(&self) -> Option<&Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region),
             DomainShape::Whole | DomainShape::Formula(_) => None,
+        }
+    }
+
+    /// Returns the polygons that the mesh meets in a way of treating the boundary: those of the domain, or the
+    /// zero line of its formula where nodes or triangles follow that. It is followed now unless it is known,
+    /// which takes some 50 ms for a circle, and can take seconds.
+    pub fn outline(&self, boundary: BoundaryTreatment) -> Option<Arc<Region>> {
+        match &self.shape {
+            DomainShape::Region(region) => Some(region.clone()),
+            DomainShape::Formula(shape) if boundary != BoundaryTreatment::Report => {
+                shape.outline_in(&self.bounds).ok()
+            }
+            DomainShape::Whole | DomainShape::Formula(_) => None,
+        }
+    }
+
+    /// Returns why a mesh cannot follow the zero line of the formula, if it is to do so and cannot. The line is
+    /// followed now unless it is known.
+    pub fn outline_error(&self, boundary: BoundaryTreatment) -> Option<ZeroLineError> {
+        match &self.shape {
+            DomainShape::Formula(shape) if boundary != BoundaryTreatment::Report => {
+                shape.outline_in(&self.bounds).err()
+            }
+            DomainShape::Whole | DomainShape::Formula(_) | DomainShape::Region(_) => None,
         }
     }
 
@@ -258,7 +299,7 @@ impl Domain {
     /// Returns the formula, if the domain is given by one.
     pub fn formula(&self) -> Option<&Formula> {
         match &self.shape {
-            DomainShape::Formula(formula) => Some(formula),
+            DomainShape::Formula(shape) => Some(shape.formula()),
             DomainShape::Whole | DomainShape::Region(_) => None,
         }
     }

@@ -62,6 +62,12 @@ impl Region {
         Self::cut_to_frame(&grid, &contours).polygons
     }
 
+    /// Returns the region on the left of some rings, within a frame that was not chosen to cut it.
+    pub(super) fn enclosed_on_left(rings: &[Ring], frame: Rect) -> Self {
+        let grid = Grid::over(&frame);
+        Self::cut_to_frame(&grid, &grid.contours(rings))
+    }
+
     /// Returns points on the grid of the regions in a frame, without repetitions.
     pub(super) fn snapped(points: &[DVec2], frame: &Rect) -> Ring {
         let grid = Grid::over(frame);

@@ -225,7 +225,7 @@ mod tests {
     use crate::field::CostFormula;
     use crate::layers::{Mask, RiskField};
     use crate::path::resolve_tests::{random_mesh, refined};
-    use crate::path::{FormulaCost, Passage, Planner};
+    use crate::path::{FormulaCost, Passage, PathRequest, Planner};
 
     fn random_base(random: &mut fastrand::Rng) -> PathMesh {
         let ring: Vec<DVec2> = (0..3).map(|_| dvec2(random.f64(), random.f64())).collect();
@@ -301,5 +301,24 @@ mod tests {
             adapted += usize::from(new.mesh().triangle_count() > to.triangle_count());
         }
         assert!(others > 10 && adapted > 20, "{others} {adapted}");
+    }
+
+    /// The nodes around the start are gone on the second mesh, and there again on the third.
+    #[test]
+    fn a_start_that_is_closed_and_opened_again_has_the_path_of_a_new_planner() {
+        let mesh = refined(&mut fastrand::Rng::with_seed(3), None);
+        let ring = [(-1.0, -1.0), (0.5, -1.0), (0.5, 0.5), (-1.0, 0.5)];
+        let corner = Mask::new(&[vec![ring.map(|(x, y)| dvec2(x, y)).to_vec()]]).unwrap();
+        let meshes = [PathMesh::new(mesh.view()), PathMesh::with_keep_out(mesh.view(), &[corner])];
+        let [whole, part] = meshes.map(Arc::new);
+        let formula = CostFormula::parse("1 + x").unwrap();
+        let density = FormulaCost { formula, risk: RiskField::default() };
+        let places = [dvec2(0.1, 0.2), dvec2(0.9, 0.8)];
+        let mut planner = Planner::new(Arc::clone(&whole), &density).unwrap();
+        let first = planner.solve(&density, &places, PathRequest::FULL).unwrap();
+        for to in [&part, &part, &whole] {
+            planner.move_to(Arc::clone(to), &density, &[]).unwrap();
+        }
+        assert_eq!(planner.solve(&density, &places, PathRequest::FULL).unwrap().cost, first.cost);
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::path_mesh::contains;
 use super::{Passage, PathError, Waypoint};
-use crate::domain::{Domain, RegionOutline};
+use crate::domain::{BoundaryTreatment, Domain, RegionOutline};
 use crate::geometry::{Rect, Side, nearest_on_segment, side_of_points};
 use crate::layers::{Coverage, Mask};
 
@@ -37,14 +37,19 @@ const ROUNDING: [f64; 2] = [1e-12, 1e-14];
 
 impl PathArea {
     /// Returns the area of paths through a domain that stay out of regions, with a clearance in world units:
-    /// in the plane of a projection, in metres on the Earth. Only polygons limit it: of a domain given by a
-    /// formula, only the triangles of its mesh are known.
+    /// in the plane of a projection, in metres on the Earth. The outline that meshes of the domain meet limits
+    /// it, if there is one; where there is none, only the triangles of a mesh do.
     ///
     /// # Errors
     /// Fails when the clearance is negative, NaN or infinite.
-    pub fn new(domain: &Domain, keep_out: Vec<Mask>, clearance: f64) -> Result<Self, PathError> {
+    pub fn new(
+        domain: &Domain,
+        boundary: BoundaryTreatment,
+        keep_out: Vec<Mask>,
+        clearance: f64,
+    ) -> Result<Self, PathError> {
         check_clearance(clearance)?;
-        let outline = domain.region().and_then(|region| RegionOutline::new(region)).map(Arc::new);
+        let outline = domain.outline(boundary).and_then(|region| RegionOutline::new(&region)).map(Arc::new);
         let scale = domain.greatest_scale();
         Ok(Self { keep_out: keep_out.into(), outline, clearance: scale * clearance, scale })
     }

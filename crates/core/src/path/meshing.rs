@@ -97,7 +97,7 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::domain::Domain;
+    use crate::domain::{BoundaryTreatment, Domain};
     use crate::geometry::{Lattice, Rect};
     use crate::layers::Mask;
     use crate::mesh::{Limits, Mesh};
@@ -112,7 +112,7 @@ mod tests {
         for area in [
             PathArea::default(),
             PathArea::outside_of(&keep_out),
-            PathArea::new(&domain, keep_out.clone(), 0.06).unwrap(),
+            PathArea::new(&domain, BoundaryTreatment::Report, keep_out.clone(), 0.06).unwrap(),
         ] {
             let whole = PathMesh::in_area(mesh.view(), &area);
             for slice in [1, 7, 100] {

@@ -67,9 +67,12 @@ impl WaypointMarch {
         let triangle = |t: u32| shared.new_triangles[t as usize];
         let place = self.place.map(|place| MeshPlace { triangle: triangle(place.triangle), ..place });
         self.place = place.filter(|place| place.triangle != NONE);
-        let renumbered = |&(node, value): &Seed| (shared.new_nodes[node as usize], value);
+        // Seeds with a node that is gone belong to no place of the new mesh.
+        let renumbered = |&(node, value): &Seed| {
+            Some((shared.new_nodes[node as usize], value)).filter(|&(node, _)| node != NONE)
+        };
         let seeds = self.place.map(|place| place.seeds(new, costs));
-        self.seeds = self.seeds.iter().map(renumbered).collect();
+        self.seeds = self.seeds.iter().map(renumbered).collect::<Option<_>>().unwrap_or_default();
         if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
             self.march.move_to([old, new], costs, least, &self.seeds, (shared, changed));
         } else {

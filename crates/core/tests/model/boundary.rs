@@ -10,7 +10,7 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::build::BuiltMesh;
 use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, CutShape, Domain,
-    DomainShape, MeshBoundary, NamedPolygon, Polygon, Ring,
+    MeshBoundary, NamedPolygon, Polygon, Ring,
 };
 use meshbrush_core::field::Formula;
 use meshbrush_core::outline::DerivedMesh;
@@ -282,7 +282,7 @@ fn pieces_of_a_formula_do_not_depend_on_the_order_of_triangles() {
     let bounds = Rect::around(DVec2::ZERO, 1.0);
     let formula =
         Formula::parse("hypot(x, y) < 1.2 and hypot(x - 0.4, y) > 0.3 and hypot(x + 0.5, y) > 0.15");
-    let domain = Domain { bounds, shape: DomainShape::Formula(formula.unwrap()), projection: None };
+    let domain = Domain { bounds, shape: formula.unwrap().into(), projection: None };
     let by_place = |targets: &[&str]| {
         let lattice = Lattice::covering(bounds, 0.1, 1_000_000).unwrap();
         let inside = |p: DVec2| domain.formula().unwrap().eval(p.x, p.y) != 0.0;

@@ -189,7 +189,7 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         Setting::MaxMemory(1_000_000),
         Setting::Domain(Domain {
             bounds: Rect::UNIT,
-            shape: DomainShape::Formula(formula("x > 2")),
+            shape: DomainShape::from(formula("x > 2")),
             projection: None,
         }),
     ];

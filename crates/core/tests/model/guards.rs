@@ -150,7 +150,7 @@ fn each_change_of_a_gesture_is_reported() {
 fn polygons_are_not_added_to_a_domain_of_a_formula() {
     let ring = vec![dvec2(0.2, 0.2), dvec2(0.8, 0.2), dvec2(0.5, 0.8)];
     let polygons = [NamedPolygon { name: String::new(), polygon: vec![ring] }];
-    let shape = DomainShape::Formula(Formula::parse("r < 1").unwrap());
+    let shape = DomainShape::from(Formula::parse("r < 1").unwrap());
     let domain = Domain { shape, ..Domain::rectangle(Rect::UNIT) };
     let settings = Settings { domain, ..Settings::default() };
     assert_eq!(settings.with_outline(&polygons), Err(OutlineError::Formula));

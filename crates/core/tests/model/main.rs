@@ -57,3 +57,4 @@ mod smallest_diameter;
 mod stacks;
 mod surface;
 mod symmetry;
+mod zero_line;

@@ -135,10 +135,10 @@ impl Coast {
         let targets = built.edge_targets(PaintLayers::blank());
         let derived = DerivedMesh::new(&built.mesh, &built.domain, targets, &settings.derived_cleaning());
         let plan = PathPlan { clearance, ..PathPlan::default() };
-        let area = plan.area(&settings.domain).unwrap();
+        let area = plan.area(&settings.domain, settings.boundary).unwrap();
         let area = match keep_out.is_empty() {
             true => area,
-            false => PathArea::new(&settings.domain, keep_out.clone(), clearance).unwrap(),
+            false => PathArea::new(&settings.domain, settings.boundary, keep_out.clone(), clearance).unwrap(),
         };
         let mesh = Arc::new(PathMesh::in_area(derived.extract(&built.mesh).view(), &area));
         let mut coast = Self { domain: settings.domain, keep_out, clearance, mesh, places: Vec::new() };
@@ -246,7 +246,7 @@ fn around_island(clearance: f64, spacing: f64) -> Arc<PathMesh> {
     let settings = Settings { spacing, ..Settings::for_domain("island".into(), island()) };
     let mut builder = MeshBuilder::new(settings.mesh_spec().unwrap());
     while builder.advance(None, 100_000).unwrap() != Progress::Done {}
-    let area = PathArea::new(&settings.domain, Vec::new(), clearance).unwrap();
+    let area = PathArea::new(&settings.domain, settings.boundary, Vec::new(), clearance).unwrap();
     Arc::new(PathMesh::in_area(builder.finish().mesh.extract().view(), &area))
 }
 
@@ -307,7 +307,9 @@ fn places_that_are_too_close_are_refused_with_the_distance() {
     assert!(solve(0.39, dvec2(0.001, 0.5)).is_ok());
     assert!(text(0.41, dvec2(0.001, 0.5)).contains("the clearance of paths is 0.41"));
     for clearance in [-1.0, f64::NAN, f64::INFINITY] {
-        let error = PathArea::new(&island(), Vec::new(), clearance).unwrap_err().to_string();
+        let error = PathArea::new(&island(), BoundaryTreatment::Report, Vec::new(), clearance)
+            .unwrap_err()
+            .to_string();
         assert!(error.ends_with("is no distance: it must be a finite number from 0."), "{error}");
     }
 }

@@ -363,7 +363,7 @@ fn where_a_part_is_missing_the_mesh_is_the_smallest_too() {
     let mut random = fastrand::Rng::with_seed(33);
     // Three quarters of the square: five of eight coarse triangles.
     let inside = Formula::parse("if(x > 0.6 and y > 0.6, 0, 1)").unwrap();
-    let shape = DomainShape::Formula(inside.clone());
+    let shape = DomainShape::from(inside.clone());
     let domain = Domain { shape, ..Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 1.0))) };
     let grid = Grid::new(domain, 0.5, 2);
     assert!(grid.meshes.len() > 100, "{}", grid.meshes.len());
@@ -418,7 +418,7 @@ fn a_formula_that_jumps_ends_and_its_error_says_where() {
 #[test]
 fn samples_outside_the_domain_do_not_count() {
     let domain = Domain {
-        shape: DomainShape::Formula(Formula::parse("x < 0.5").unwrap()),
+        shape: DomainShape::from(Formula::parse("x < 0.5").unwrap()),
         ..Domain::rectangle(Rect::UNIT)
     };
     let values = (0..16 * 16).map(|n| if n % 16 < 8 { 1.0 } else { 100.0 * f32::from(n as u8) }).collect();

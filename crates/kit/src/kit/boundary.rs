@@ -50,7 +50,7 @@ impl BoundaryFinder {
         derived: Option<&Derived>,
         jobs: &Jobs,
     ) -> bool {
-        let is_finding = self.find_pieces(document, follower, jobs);
+        let is_finding = self.find_pieces(document, follower, derived, jobs);
         if let (false, Some(derived)) = (is_finding, derived) {
             self.find_lost(document, derived, jobs)
         } else {
@@ -72,10 +72,20 @@ impl BoundaryFinder {
         self.lost.take(jobs)
     }
 
-    fn find_pieces(&mut self, document: &Document, follower: &Follower, jobs: &Jobs) -> bool {
+    fn find_pieces(
+        &mut self,
+        document: &Document,
+        follower: &Follower,
+        derived: Option<&Derived>,
+        jobs: &Jobs,
+    ) -> bool {
         self.pieces.take_ready(jobs);
         let is_of_mesh = document.settings().domain.formula().is_some();
         if is_of_mesh && !follower.is_in_step(document) {
+            return false;
+        }
+        let is_derived = is_of_mesh && follower.settings().outline().is_some();
+        if is_derived && derived.is_none() {
             return false;
         }
         let settings = document.settings();
@@ -85,9 +95,13 @@ impl BoundaryFinder {
         if !self.pieces.is_running() && !self.pieces.has(&key) {
             let BoundaryKey { domain, marks, revision } = key.clone();
             let mesh = revision.map(|_| follower.shared_mesh());
-            let find = move || match mesh {
-                Some(mesh) => BoundaryPieces::of_mesh(&mesh.extract(), &marks),
-                None => BoundaryPieces::of_domain(&domain, &marks).expect("it is given by no formula"),
+            let extract = derived.filter(|_| is_derived).map(Derived::shared_extract);
+            let find = move || match (extract, mesh) {
+                (Some(extract), _) => BoundaryPieces::of_mesh(&extract, &marks),
+                (None, Some(mesh)) => BoundaryPieces::of_mesh(&mesh.extract(), &marks),
+                (None, None) => {
+                    BoundaryPieces::of_domain(&domain, &marks).expect("it is given by no formula")
+                }
             };
             self.pieces.start(key, find, jobs);
         }

@@ -13,11 +13,11 @@ use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
 /// Side of the area that is shown around a place, in diameters at the outline.
 const AREA_IN_DIAMETERS: f64 = 24.0;
 
-/// The mesh compared with the polygons of its domain. Not shown without polygons.
+/// The mesh compared with the outline of its domain. Not shown without an outline.
 pub static FIT: Panel = Panel { name: "fit", tab: Tab::Mesh, place: 2, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(region) = state.session.follower().settings().domain.region() else { return };
+    let Some(region) = state.session.follower().settings().outline() else { return };
     let derived = state.session.derived();
     let quality = derived.and_then(|derived| derived.quality.as_ref());
     let note = quality.map_or("…".into(), |quality| {
@@ -29,7 +29,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             value_row(ui, "Mesh", "being derived");
             return;
         };
-        count_rows(ui, derived, region);
+        count_rows(ui, derived, &region);
         if let Some(quality) = quality {
             quality_rows(ui, state, quality, commands);
         }
@@ -37,7 +37,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             let nodes = format!("{} of {}", count(fit.on_outline), count(fit.nodes));
             value_row(ui, "Nodes on outline", &nodes);
         }
-        removed_rows(ui, derived, region, commands, state);
+        removed_rows(ui, derived, &region, commands, state);
     });
 }
 

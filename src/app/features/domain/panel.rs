@@ -26,8 +26,11 @@ pub static DOMAIN_PANEL: Panel = Panel { name: "domain", tab: Tab::Domain, place
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Domain").show(ui, |ui| {
-        if let Some(region) = state.session.document().settings().domain.region() {
+        let domain = &state.session.document().settings().domain;
+        if !domain.is_whole() {
             boundary_rows(ui, state, commands);
+        }
+        if let Some(region) = domain.region() {
             value_row(ui, "Corners", &format::count(region.corner_count() as u64));
             ui.add_space(4.0);
         }
@@ -76,6 +79,11 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
             }
         },
     );
+    // Of the mesh that is shown: of another formula, the line may not be known yet.
+    let shown = state.session.follower().settings();
+    if let Some(error) = shown.domain.outline_error(shown.boundary) {
+        remark(ui, &error.to_string());
+    }
     if settings.boundary.diameter().is_some() {
         diameter_row(ui, state, diameter, commands);
         cleaning_rows(ui, settings.cleaning, settings.boundary, commands);
@@ -180,11 +188,11 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let domain = &state.session.document().settings().domain;
     let hint =
         if domain.region().is_some() { "polygons; or x^2 + y^2 < 1" } else { "everywhere; or x^2 + y^2 < 1" };
-    let help = "The domain is made of the coarse triangles at whose three corners this formula is true: a staircase of coarse cells, \
-                nearer to the shape with a smaller spacing.";
+    let help = "The domain is where this formula is true. Nodes lie on the line where it becomes false, unless the boundary is as in \
+                the report: then whole coarse triangles stay, with three corners inside.";
     let row = FormulaRow { label: "Domain where", hint, help };
     if let Some(inside) = row.show(ui, state, domain.formula()) {
-        let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
+        let shape = inside.map_or(DomainShape::Whole, DomainShape::from);
         set_once(Setting::Domain(Domain { shape, ..domain.clone() }), commands);
     }
 }

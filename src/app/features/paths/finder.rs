@@ -187,7 +187,7 @@ impl PathFinder {
             None => PlannedMesh::Mesh(session.follower().shared_mesh()),
         });
         let source = PlannerSource { known: planner.map(|(known, _)| Box::new(known)), mesh };
-        let place = (settings.domain.clone(), settings.unit);
+        let place = (settings.domain.clone(), settings.boundary, settings.unit);
         let begin = move || Some(PathWork::new(source, (plan, risk), place, is_live));
         let find = |work: &mut Option<PathWork>| work.as_mut().map_or(Slice::Found(None), PathWork::advance);
         self.work.start_in_slices(key, begin, find, jobs);

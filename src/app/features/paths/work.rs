@@ -6,12 +6,12 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use meshbrush_core::document::PathPlan;
-use meshbrush_core::domain::Domain;
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::{EarthPlane, metres_along};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{
-    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathMeshing, PathRequest, PathSample,
-    PathSearch, Planner, PlannerMove, Planning, Solution,
+    CertificateEnd, Corridor, CostDensity, PathArea, PathError, PathMesh, PathMeshing, PathRequest,
+    PathSample, PathSearch, Planner, PlannerMove, Planning, Solution,
 };
 use meshbrush_kit::kit::jobs::Slice;
 use meshbrush_mesh::geometry::Rect;
@@ -217,12 +217,11 @@ pub(super) enum PlannedMesh {
 }
 
 impl PlannedMesh {
-    fn in_area(&self, plan: &PathPlan, domain: &Domain) -> Result<PathMeshing, PathError> {
-        let area = plan.area(domain)?;
-        Ok(match self {
-            Self::Mesh(mesh) => PathMeshing::new(mesh.view(), &area),
-            Self::Extract(extract) => PathMeshing::new(extract.view(), &area),
-        })
+    fn in_area(&self, area: &PathArea) -> PathMeshing {
+        match self {
+            Self::Mesh(mesh) => PathMeshing::new(mesh.view(), area),
+            Self::Extract(extract) => PathMeshing::new(extract.view(), area),
+        }
     }
 }
 
@@ -231,6 +230,7 @@ pub(super) struct PathWork {
     pub plan: Arc<PathPlan>,
     pub risk: RiskField,
     pub domain: Domain,
+    pub boundary: BoundaryTreatment,
     pub unit: LengthUnit,
     pub is_live: bool,
     density: Arc<dyn CostDensity>,
@@ -267,12 +267,12 @@ impl PathWork {
     pub fn new(
         source: PlannerSource,
         (plan, risk): (Arc<PathPlan>, RiskField),
-        (domain, unit): (Domain, LengthUnit),
+        (domain, boundary, unit): (Domain, BoundaryTreatment, LengthUnit),
         is_live: bool,
     ) -> Option<Self> {
         let density = plan.cost.density(risk.clone(), &domain).ok()?;
         let (step, found) = (PathStep::Start(source), Vec::new());
-        Some(Self { plan, risk, domain, unit, is_live, density, step, found })
+        Some(Self { plan, risk, domain, boundary, unit, is_live, density, step, found })
     }
 
     /// Takes the next step.
@@ -293,10 +293,10 @@ impl PathWork {
     }
 
     fn step(&mut self) -> Result<ControlFlow<Option<FinishedWork>, PathStep>, PathError> {
-        let Self { plan, risk, domain, density, is_live, .. } = self;
+        let Self { plan, risk, domain, boundary, density, is_live, .. } = self;
         Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, PathStep::Done) {
             PathStep::Start(PlannerSource { known, mesh: Some(mesh) }) => {
-                PathStep::Close(known, Box::new(mesh.in_area(plan, domain)?))
+                PathStep::Close(known, Box::new(mesh.in_area(&plan.area(domain, *boundary)?)))
             }
             PathStep::Start(PlannerSource { known: Some(known), mesh: None }) => PathStep::Follow(known),
             PathStep::Start(PlannerSource { known: None, mesh: None }) => {

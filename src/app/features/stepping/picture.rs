@@ -73,9 +73,9 @@ pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>, figure: Optio
     }
 }
 
-/// Draws the polygons of the domain.
+/// Draws the outline of the domain.
 fn paint_outline(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
-    let Some(region) = state.session.follower().settings().domain.region() else { return };
+    let Some(region) = state.session.follower().settings().outline() else { return };
     let px_per_point = ui.pixels_per_point();
     let place = |&corner: &DVec2| point_from_px(rect, camera.screen_from_world(corner), px_per_point);
     for ring in region.polygons().iter().flatten() {

@@ -36,8 +36,8 @@ pub struct InputArguments {
 
     /// Keep the part of the domain where this formula in x and y is not 0
     ///
-    /// A coarse triangle stays when all its corners lie there: choose --spacing to suit the shape. NaN counts
-    /// as outside.
+    /// Nodes lie on the line where it becomes 0 or NaN, unless --boundary says otherwise. Parts and holes that
+    /// are narrower than a 4,096th of the longer side of the domain can be missed.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
@@ -53,7 +53,7 @@ pub struct InputArguments {
     #[command(flatten)]
     pub earth: EarthArguments,
 
-    /// How the mesh meets the outline of a region
+    /// How the mesh meets the outline of a region, or the line where the formula of --inside becomes 0
     ///
     /// [default: outline]
     #[arg(long, value_enum)]
@@ -65,7 +65,7 @@ pub struct InputArguments {
     pub boundary_diameter: Option<Length>,
 
     /// Parts of the mesh that stay: the largest, all, or those with this share of the area [default: largest
-    /// for a region, but all with --boundary report]
+    /// for a region or a formula, but all with --boundary report]
     ///
     /// A part is joined by edges. Narrow straits can part a mesh, and solvers need one part.
     #[arg(long, value_name = "largest|all|SHARE", allow_hyphen_values = true)]

@@ -2,18 +2,13 @@
 //!
 //! Nodes are the centres of pixels and, around them, places on the sides of the raster that have the depths
 //! of the last pixels. Beyond these there is no water.
-//!
-//! ```text
-//!   3 ──2── 2      edges of a square between four nodes, and its corners; segments lead from an edge
-//!   3       1      at which the way around the square leaves the water to one at which it enters it,
-//!   0 ──0── 1      so that the water is on their left
-//! ```
 
 use std::collections::HashMap;
 
 use glam::DVec2;
 
 use super::super::Ring;
+use super::super::marching::{self, GridEdge, GridNode, MarchingGrid};
 use crate::geometry::Rect;
 
 /// How far a crossing is from both nodes, at least, as a share of the way between them.
@@ -36,24 +31,6 @@ pub(super) struct TracedRing {
     pub around: Option<usize>,
 }
 
-/// A node by column and row: 0 is on a side of the raster, and −1 beyond it.
-type GridNode = [i64; 2];
-
-/// An edge from a node to the next one along an axis.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Edge {
-    node: GridNode,
-    axis: usize,
-}
-
-impl Edge {
-    fn ends(self) -> [GridNode; 2] {
-        let mut end = self.node;
-        end[self.axis] += 1;
-        [self.node, end]
-    }
-}
-
 impl WaterPixels<'_> {
     /// Returns the number of the pixel of a node, unless it is beyond the sides.
     fn pixel(&self, node: GridNode) -> Option<usize> {
@@ -61,10 +38,6 @@ impl WaterPixels<'_> {
         let is_node = (0..=columns + 1).contains(&node[0]) && (0..=rows + 1).contains(&node[1]);
         let [x, y] = [(node[0] - 1).clamp(0, columns - 1), (node[1] - 1).clamp(0, rows - 1)];
         is_node.then_some((y * columns + x) as usize)
-    }
-
-    fn is_water(&self, node: GridNode) -> bool {
-        self.pixel(node).is_some_and(|pixel| self.water[pixel])
     }
 
     /// Returns the depth at a node, if it is known.
@@ -86,9 +59,9 @@ impl WaterPixels<'_> {
     }
 
     /// Returns the place where the outline crosses an edge with water at one end.
-    fn crossing(&self, edge: Edge) -> DVec2 {
+    fn crossing(&self, edge: GridEdge) -> DVec2 {
         let [a, b] = edge.ends();
-        let (wet, dry) = if self.is_water(a) { (a, b) } else { (b, a) };
+        let (wet, dry) = if self.is_inside(a) { (a, b) } else { (b, a) };
         if self.pixel(dry).is_none() {
             return self.place(wet);
         }
@@ -104,74 +77,40 @@ impl WaterPixels<'_> {
         wet + share * (dry - wet)
     }
 
-    /// Returns whether the water of opposite corners of a square is joined in its middle.
+    /// Returns whether a node is water, or shallower than the level: not water that was closed.
+    fn is_traced(&self, node: GridNode) -> bool {
+        self.is_inside(node) || self.depth(node).is_some_and(|depth| depth <= self.level)
+    }
+}
+
+impl MarchingGrid for WaterPixels<'_> {
+    fn is_inside(&self, node: GridNode) -> bool {
+        self.pixel(node).is_some_and(|pixel| self.water[pixel])
+    }
+
     fn is_joined(&self, corners: [GridNode; 4]) -> bool {
         let known = corners.map(|node| self.depth(node).filter(|_| self.is_traced(node)));
         let sum: Option<f64> = known.into_iter().sum();
         sum.is_some_and(|sum| 0.25 * sum > self.level)
-    }
-
-    /// Returns whether a node is water, or shallower than the level: not water that was closed.
-    fn is_traced(&self, node: GridNode) -> bool {
-        self.is_water(node) || self.depth(node).is_some_and(|depth| depth <= self.level)
-    }
-
-    /// Adds the segments in the square above and to the right of a node, each from an edge to another one.
-    fn add_segments(&self, [x, y]: GridNode, next: &mut HashMap<Edge, Edge>) {
-        let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
-        let wet = corners.map(|node| self.is_water(node));
-        if wet == [wet[0]; 4] {
-            return;
-        }
-        let edges = [([x, y], 0), ([x + 1, y], 1), ([x, y + 1], 0), ([x, y], 1)];
-        let edges = edges.map(|(node, axis)| Edge { node, axis });
-        let leaves = |n: usize| wet[n] && !wet[(n + 1) % 4];
-        let enters = |n: usize| !wet[n] && wet[(n + 1) % 4];
-        let is_saddle = wet[0] == wet[2] && wet[1] == wet[3];
-        let is_joined = is_saddle && self.is_joined(corners);
-        for from in (0..4).filter(|&n| leaves(n)) {
-            // Around the dry corners that follow, or, where water meets at a corner only, around the wet one.
-            let step = if is_saddle && !is_joined { 3 } else { 1 };
-            let ways = (1..4).map(|count| (from + step * count) % 4);
-            if let Some(to) = ways.into_iter().find(|&n| enters(n)) {
-                next.insert(edges[from], edges[to]);
-            }
-        }
     }
 }
 
 /// Returns the rings of the outline of water.
 pub(super) fn rings(water: &WaterPixels) -> Vec<TracedRing> {
     let [columns, rows] = water.size.map(i64::from);
-    let mut next: HashMap<Edge, Edge> = HashMap::new();
-    for y in -1..=rows + 1 {
-        (-1..=columns + 1).for_each(|x| water.add_segments([x, y], &mut next));
-    }
+    let squares = (-1..=rows + 1).flat_map(|y| (-1..=columns + 1).map(move |x| [x, y]));
     let mut crossed: HashMap<i64, Vec<(i64, usize)>> = HashMap::new();
-    let mut found: Vec<(Vec<Edge>, f64)> = Vec::new();
-    // In the order of the nodes, so that the rings are, too.
-    for y in -1..=rows + 1 {
-        for x in -1..=columns + 1 {
-            let start = Edge { node: [x, y], axis: 0 };
-            let mut edges = Vec::new();
-            let mut edge = start;
-            while let Some(following) = next.remove(&edge) {
-                edges.push(edge);
-                edge = following;
-            }
-            if edges.is_empty() {
-                continue;
-            }
-            for edge in edges.iter().filter(|edge| edge.axis == 0) {
-                crossed.entry(edge.node[1]).or_default().push((edge.node[0], found.len()));
-            }
-            let turns = turning_area(&edges);
-            found.push((edges, turns));
+    let mut found: Vec<(Vec<GridEdge>, f64)> = Vec::new();
+    for edges in marching::rings(water, squares) {
+        for edge in edges.iter().filter(|edge| edge.axis == 0) {
+            crossed.entry(edge.node[1]).or_default().push((edge.node[0], found.len()));
         }
+        let turns = turning_area(&edges);
+        found.push((edges, turns));
     }
     crossed.values_mut().for_each(|row| row.sort_unstable());
     let around = outer_rings(&found, &crossed);
-    let ring = |((edges, _), around): (&(Vec<Edge>, f64), Option<usize>)| TracedRing {
+    let ring = |((edges, _), around): (&(Vec<GridEdge>, f64), Option<usize>)| TracedRing {
         points: without_needless(edges.iter().map(|&edge| water.crossing(edge)).collect(), &water.bounds),
         around,
     };
@@ -180,8 +119,8 @@ pub(super) fn rings(water: &WaterPixels) -> Vec<TracedRing> {
 
 /// Returns the area of a ring between the middles of its edges, in squares, above zero where it is
 /// counter-clockwise.
-fn turning_area(edges: &[Edge]) -> f64 {
-    let middle = |edge: &Edge| {
+fn turning_area(edges: &[GridEdge]) -> f64 {
+    let middle = |edge: &GridEdge| {
         let [a, b] = edge.ends();
         [0, 1].map(|axis: usize| (a[axis] + b[axis]) as f64 * 0.5)
     };
@@ -193,7 +132,10 @@ fn turning_area(edges: &[Edge]) -> f64 {
 ///
 /// To the left of the leftmost crossing of an island there is water, up to the next crossing: that is one of
 /// the ring around this water, or of another island in it, which reaches farther to the left.
-fn outer_rings(rings: &[(Vec<Edge>, f64)], crossed: &HashMap<i64, Vec<(i64, usize)>>) -> Vec<Option<usize>> {
+fn outer_rings(
+    rings: &[(Vec<GridEdge>, f64)],
+    crossed: &HashMap<i64, Vec<(i64, usize)>>,
+) -> Vec<Option<usize>> {
     let mut outer: Vec<Option<usize>> = vec![None; rings.len()];
     let leftmost = |number: usize| {
         let along_rows = rings[number].0.iter().filter(|edge| edge.axis == 0);

@@ -220,7 +220,8 @@ mod tests {
         let keep_out = Mask::new(&[vec![ring]]).unwrap();
         let clearance = 0.06;
         let domain = Domain::rectangle(Rect::UNIT);
-        let area = PathArea::new(&domain, vec![keep_out.clone()], clearance).unwrap();
+        let area =
+            PathArea::new(&domain, BoundaryTreatment::Report, vec![keep_out.clone()], clearance).unwrap();
         let formula = CostFormula::parse("1").unwrap();
         let cost = Arc::new(FormulaCost { formula, risk: RiskField::default() });
         let ends = vec![dvec2(0.1, 0.1), dvec2(0.9, 0.9)];
@@ -259,7 +260,13 @@ mod tests {
         let ring = [dvec2(0.0, 0.0), dvec2(0.002, 0.0), dvec2(0.0, 0.002)].map(|p| small + p);
         for center in [small, dvec2(0.27, 0.31)] {
             let moved = ring.map(|p| p - small + center).to_vec();
-            let area = PathArea::new(&domain, vec![Mask::new(&[vec![moved]]).unwrap()], 1e-4).unwrap();
+            let area = PathArea::new(
+                &domain,
+                BoundaryTreatment::Report,
+                vec![Mask::new(&[vec![moved]]).unwrap()],
+                1e-4,
+            )
+            .unwrap();
             let task = plain.clone().in_area(area);
             let mut mesh = Mesh::coarse_grid(&task.lattice, |_| true, &Limits::default()).unwrap();
             for level in 0..4 {

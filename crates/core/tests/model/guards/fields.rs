@@ -56,7 +56,7 @@ fn bounds_say_whether_a_value_may_be_no_number() {
 #[test]
 fn a_triangle_has_nothing_of_a_domain_only_if_all_of_it_is_beyond() {
     let lattice = Lattice::covering(Rect::UNIT, 0.1, 1_000).unwrap();
-    let shape = DomainShape::Formula(Formula::parse("x + 2*y < 1.2").unwrap());
+    let shape = DomainShape::from(Formula::parse("x + 2*y < 1.2").unwrap());
     let domain = Domain { shape, ..Domain::rectangle(Rect::UNIT) };
     let domain = DomainOnLattice::new(&domain, BoundaryTreatment::Report, &lattice);
     let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();

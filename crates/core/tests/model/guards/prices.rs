@@ -14,7 +14,7 @@ use super::spec;
 
 /// Settings that differ from others in the coarse grid, the domain or the treatment of its boundary alone.
 fn other_grids(default: &Settings) -> [Settings; 3] {
-    let shape = DomainShape::Formula(Formula::parse("x > -9").unwrap());
+    let shape = DomainShape::from(Formula::parse("x > -9").unwrap());
     let domain = Domain { shape, ..default.domain.clone() };
     assert_ne!(default.boundary, BoundaryTreatment::Report);
     [

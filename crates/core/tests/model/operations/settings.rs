@@ -1,5 +1,7 @@
 //! Changes of other settings.
 
+use std::sync::LazyLock;
+
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, BoundaryType, Domain, DomainShape};
@@ -84,14 +86,13 @@ fn bounds(choices: &mut impl Choices) -> Rect {
 const INSIDES: [&str; 4] =
     ["not(hypot(x - 0.4, y - 0.6) < 0.2 or x + y > 1.7)", "abs(x - y) < 0.4", "x < 0.25 or x > 0.7", "x > 9"];
 
+/// The shapes of these formulas: clones share the line, which is followed once.
+static SHAPES: LazyLock<[DomainShape; 4]> =
+    LazyLock::new(|| INSIDES.map(|text| Formula::parse(text).unwrap().into()));
+
 fn inside(choices: &mut impl Choices) -> Domain {
-    let chosen = choices.below(1 + 2 * INSIDES.len()).checked_sub(1).and_then(|n| INSIDES.get(n));
-    let formula = chosen.map(|text| Formula::parse(text).unwrap());
-    Domain {
-        bounds: Rect::UNIT,
-        shape: formula.map_or(DomainShape::Whole, DomainShape::Formula),
-        projection: None,
-    }
+    let chosen = choices.below(1 + 2 * SHAPES.len()).checked_sub(1).and_then(|n| SHAPES.get(n));
+    Domain { bounds: Rect::UNIT, shape: chosen.cloned().unwrap_or(DomainShape::Whole), projection: None }
 }
 
 /// Returns a setting that no document accepts.
@@ -118,11 +119,7 @@ pub fn domains() -> [Domain; 4] {
     [
         Domain::rectangle(Rect::UNIT),
         Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
-        Domain {
-            bounds: Rect::UNIT,
-            shape: DomainShape::Formula(Formula::parse(INSIDES[0]).unwrap()),
-            projection: None,
-        },
+        Domain { bounds: Rect::UNIT, shape: SHAPES[0].clone(), projection: None },
         Domain::of_polygons(&[vec![outline, hole]]).unwrap(),
     ]
 }

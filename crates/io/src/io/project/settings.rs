@@ -227,7 +227,7 @@ impl Saved {
                 bounds: corners(settings.domain.bounds),
                 shape: match &settings.domain.shape {
                     DomainShape::Whole => StoredShape::Whole,
-                    DomainShape::Formula(formula) => StoredShape::Formula(formula.source().into()),
+                    DomainShape::Formula(shape) => StoredShape::Formula(shape.formula().source().into()),
                     DomainShape::Region(_) => StoredShape::Polygons,
                 },
                 polygons: settings.domain.region().cloned().map(PartData::Region).and_then(name_of),
@@ -303,7 +303,7 @@ impl Saved {
         let projection = projection.transpose().map_err(sentence)?;
         let shape = match self.domain.shape {
             StoredShape::Whole => DomainShape::Whole,
-            StoredShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
+            StoredShape::Formula(text) => formula("domain", &text)?.into(),
             StoredShape::Polygons => {
                 let on_earth = OutlineOnEarth { file: None, projection, frame: None };
                 let cuts = self.domain.cuts.iter().map(SavedCut::load).collect::<Result<_, _>>()?;

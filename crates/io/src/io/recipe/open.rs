@@ -36,10 +36,11 @@ pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
 
 /// Returns sentences about the settings of a recipe that a document does not have.
 fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item = String> {
-    let is_fitted = recipe.settings.domain.outline_file().is_some() && boundary != BoundaryTreatment::Report;
+    let is_fitted = recipe.settings.domain.has_outline() && boundary != BoundaryTreatment::Report;
     let removes_parts = recipe.settings.domain.parts.is_some_and(|parts| parts != SavedParts::All);
     let parts = (removes_parts && !is_fitted).then(|| {
-        "The window keeps all parts of a mesh that is not fitted to polygons: `parts` is left out.".to_owned()
+        "The window keeps all parts of a mesh that is not fitted to an outline: `parts` is left out."
+            .to_owned()
     });
     parts.into_iter()
 }

@@ -205,15 +205,17 @@ impl SavedDomain {
                             the water of a grid.";
             return Err(KeyFault::key("land", sentence));
         }
-        let of_outline = [
-            ("boundary_diameter", self.boundary_diameter.is_some()),
-            ("boundary", self.boundary.is_some()),
-            ("projection", self.projection.is_some()),
-            ("crs", self.crs.is_some()),
-        ];
-        if let Some((key, _)) =
-            of_outline.into_iter().find(|(_, is_given)| *is_given && self.outline_file().is_none())
-        {
+        let of_outline =
+            [("boundary_diameter", self.boundary_diameter.is_some()), ("boundary", self.boundary.is_some())];
+        let given = of_outline.into_iter().find(|(_, is_given)| *is_given && !self.has_outline());
+        if let Some((key, _)) = given {
+            let sentence = "this is for the outline of a region or a formula; name a file with `region`, give a formula \
+                            with `inside`, or leave it out.";
+            return Err(KeyFault::key(key, sentence));
+        }
+        let of_file = [("projection", self.projection.is_some()), ("crs", self.crs.is_some())];
+        let given = of_file.into_iter().find(|(_, is_given)| *is_given && self.outline_file().is_none());
+        if let Some((key, _)) = given {
             let sentence =
                 "this is for the outline of a region; name its file with `region`, or leave it out.";
             return Err(KeyFault::key(key, sentence));
@@ -223,6 +225,11 @@ impl SavedDomain {
             return Err(KeyFault::key("boundary_diameter", sentence));
         }
         Ok(())
+    }
+
+    /// Returns whether the domain has an outline: that of a region, or the zero line of a formula.
+    pub fn has_outline(&self) -> bool {
+        self.outline_file().is_some() || self.inside.is_some()
     }
 
     /// Returns the rectangle that the coarse grid covers, in world units.

@@ -208,7 +208,7 @@ impl<L> SavedSettings<L> {
             Some(bounds) => (bounds, LengthUnit::None),
             None => storage.extent(&self.layer)?.unwrap_or((Rect::UNIT, LengthUnit::None)),
         };
-        let shape = self.domain.formula()?.map_or(DomainShape::Whole, DomainShape::Formula);
+        let shape = self.domain.formula()?.map_or(DomainShape::Whole, DomainShape::from);
         let marks = BoundaryMarks::default();
         Ok(ReadRegion { domain: Domain { bounds, shape, projection: None }, marks, unit })
     }

@@ -58,25 +58,26 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
         types,
         ..SavedDomain::default()
     };
+    let rectangle = SavedDomain { bounds: Some([min.x, min.y, max.x, max.y]), ..rectangle };
     // A mesh that is not fitted is not cleaned, whatever the settings say about parts.
     let is_fitted = settings.boundary != BoundaryTreatment::Report;
+    let with_outline = |domain: SavedDomain| SavedDomain {
+        boundary: Some(SavedTreatment::of(settings.boundary)),
+        boundary_diameter: settings.boundary.diameter().map(Into::into),
+        parts: is_fitted.then(|| settings.cleaning.parts.into()),
+        keep_pinches: (is_fitted && settings.cleaning.keeps_pinches).then_some(true),
+        ..domain
+    };
     match &settings.domain.shape {
-        DomainShape::Whole => SavedDomain { bounds: Some([min.x, min.y, max.x, max.y]), ..rectangle },
-        DomainShape::Formula(formula) => SavedDomain {
-            bounds: Some([min.x, min.y, max.x, max.y]),
-            inside: Some(formula.source().to_owned()),
-            ..rectangle
-        },
-        DomainShape::Region(_) => SavedDomain {
+        DomainShape::Whole => rectangle,
+        DomainShape::Formula(shape) => {
+            with_outline(SavedDomain { inside: Some(shape.formula().source().to_owned()), ..rectangle })
+        }
+        DomainShape::Region(_) => with_outline(SavedDomain {
             region: Some(region_file.into()),
             projection: settings.domain.projection.map(|projection| projection.to_string()),
-            bounds: Some([min.x, min.y, max.x, max.y]),
             unit: Some(rectangle.unit.unwrap_or(SavedUnit::None)),
-            boundary: Some(SavedTreatment::of(settings.boundary)),
-            boundary_diameter: settings.boundary.diameter().map(Into::into),
-            parts: is_fitted.then(|| settings.cleaning.parts.into()),
-            keep_pinches: (is_fitted && settings.cleaning.keeps_pinches).then_some(true),
             ..rectangle
-        },
+        }),
     }
 }

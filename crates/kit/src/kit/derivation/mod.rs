@@ -60,7 +60,7 @@ impl DerivationKey {
             revision: follower.revision(),
             on_outline: follower.domain().region_on_outline().is_some(),
             cleaning: settings.derived_cleaning(),
-            region: settings.domain.region()?.clone(),
+            region: settings.outline()?,
         })
     }
 }
@@ -446,7 +446,7 @@ pub struct MeasuredMesh {
 impl MeasuredMesh {
     /// Returns whether the mesh is as the document asks for, and derived where it has to be.
     pub fn is_settled(document: &Document, follower: &Follower, derivation: &Derivation) -> bool {
-        let is_fitted = follower.settings().domain.region().is_some();
+        let is_fitted = follower.settings().outline().is_some();
         let is_derived = !is_fitted || derivation.current(follower).is_some();
         follower.stage().is_settled() && !document.is_in_gesture() && is_derived
     }

@@ -386,7 +386,7 @@ fn bit_of(level: u32) -> u64 {
 /// Returns the deepest level that h_min or the diameter at the outline can ask for.
 pub fn deepest_level(settings: &Settings) -> u8 {
     let spacing = settings.lattice().map_or(settings.spacing, |lattice| lattice.spacing());
-    let at_outline = settings.domain.region().and_then(|_| settings.boundary.diameter());
+    let at_outline = settings.boundary.diameter().filter(|_| settings.is_fitted());
     let smallest = at_outline.map_or(settings.transfer.h_min, |at| at.min(settings.transfer.h_min));
     level_for_diameter(spacing, smallest).unwrap_or(63).max(1) as u8
 }

@@ -148,7 +148,7 @@ fn the_boundary_is_opened_in_the_polygons_of_a_file() {
 fn a_domain_by_a_formula_says_how_its_boundary_is_opened() {
     let mut window = window_of(SIZE);
     let domain = Domain {
-        shape: meshbrush_core::domain::DomainShape::Formula("x^2 + y^2 < 1".parse().unwrap()),
+        shape: "x^2 + y^2 < 1".parse::<meshbrush_core::field::Formula>().unwrap().into(),
         ..Domain::rectangle(Rect::new(dvec2(-1.0, -1.0), dvec2(1.0, 1.0)))
     };
     send(&mut window, show(Settings::for_domain("disc".into(), domain)));

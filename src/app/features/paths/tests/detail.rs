@@ -7,7 +7,7 @@ use glam::{DVec2, dvec2};
 
 use crate::app::features::paths::work::{KnownPlanner, PathWork, PlannedMesh, PlannerSource, WorkResult};
 use meshbrush_core::document::{KeepOut, PathPlan};
-use meshbrush_core::domain::Domain;
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::{Mask, RiskField};
 use meshbrush_core::path::Solution;
 use meshbrush_kit::kit::jobs::Slice;
@@ -24,7 +24,7 @@ fn plan_to(goal: DVec2) -> Arc<PathPlan> {
 
 /// Returns the planner after the work on a plan, and its path.
 fn after(source: PlannerSource, plan: Arc<PathPlan>, is_live: bool) -> (KnownPlanner, Option<Solution>) {
-    let place = (Domain::rectangle(Rect::UNIT), LengthUnit::default());
+    let place = (Domain::rectangle(Rect::UNIT), BoundaryTreatment::Report, LengthUnit::default());
     let mut work = PathWork::new(source, (plan, RiskField::default()), place, is_live).unwrap();
     let work = loop {
         if let Slice::Found(work) = work.advance() {
