@@ -133,6 +133,7 @@ fn links_of_squares_vanish_and_places_are_in_the_coordinates_of_the_file() {
 fn a_boundary_that_touches_itself_is_named_with_the_rules_that_wait_for_it() {
     let folder = Folder::new("check-touches");
     let words = ["check", "--domain", "0,0,4,4", "--spacing", "1", "--inside", "max(x,y)<=2 or min(x,y)>=2"];
+    let words = [&words[..], &["--boundary", "report"]].concat();
     let ran = folder.run([&words[..], &["--for", "fvcom", "--json"]].concat());
     let answer = ran.json();
     assert_eq!((ran.status, count(&answer, "boundaries_that_touch")), (1, 1));

@@ -533,9 +533,8 @@ fn bad_regions_are_explained() {
         (
             "--boundary-diameter 0.1",
             2,
-            "--boundary-diameter 0.1: it is for the outline of a domain from a file. Name that with --region",
+            "--boundary-diameter 0.1: it is for the outline of a domain. Name a file with --region",
         ),
-        ("--boundary-diameter 0.1 --inside 'x < 1'", 2, "Name that with --region, or leave it out."),
         (
             "--region frame.geojson --boundary report --boundary-diameter 0.1",
             2,
@@ -891,7 +890,7 @@ fn a_name_chooses_among_the_formats_of_an_ending() {
     assert_eq!((ran.status, start("bay_obc.dat").as_str()), (0, "OBC Node Number = 8 1 1 1"), "{}", ran.err);
     assert!(ran.err.contains("wrote bay_grd.dat") && ran.err.contains("wrote bay_dep.dat"), "{}", ran.err);
     assert_fails(&folder, "mesh -o a.vtu --format doc", 2, "--format doc: use one of vtu msh msh22 obj");
-    let apart = "mesh --domain 0,0,4,4 --spacing 1 --inside 'max(x,y) <= 2 or min(x,y) >= 2' -o a.14";
+    let apart = "mesh --domain 0,0,4,4 --spacing 1 --inside 'max(x,y) <= 2 or min(x,y) >= 2' --boundary report -o a.14";
     let ran = folder.run(apart);
     let refusal = "fort.14 needs two boundary edges at each boundary node, and at x = 2, y = 2";
     assert!(ran.status == 1 && ran.err.contains(refusal) && !folder.0.join("a.14").exists(), "{}", ran.err);

@@ -299,7 +299,7 @@ fn each_obstacle_has_an_error_of_its_own() {
             "--spacing 0.05 --keep-out wall.geojson",
             "keep-out regions, the outline of the domain and the clearance, with the triangles that they touch, enclose",
         ),
-        ("--spacing 0.05 --inside 'abs(x-0.5)>0.2'", "but the domain may: a strait between them"),
+        ("--spacing 0.05 --inside 'abs(x-0.5)>0.2' --parts all", "but the domain may: a strait between them"),
         ("--spacing 0.05 --cost '1+1e300*x'", "Only costs from 1e-100 to 1e100 can be added up"),
     ] {
         let ran = path(&folder, &format!("{ends} {arguments}"));

@@ -43,7 +43,8 @@ fn random_document(seed: u64) -> String {
     let mut random = fastrand::Rng::with_seed(seed);
     let [x, y, near, slope] = [(); 4].map(|()| random.f64());
     let target = format!("{:.4}+{:.3}*hypot(x-{x:.3},y-{y:.3})", 0.01 + 0.05 * near, 0.05 + 0.4 * slope);
-    let shape = ["", " --inside r<0.9", " --inside x+y<1.3"][random.usize(..3)];
+    let shape =
+        ["", " --inside r<0.9 --boundary report", " --inside x+y<1.3 --boundary report"][random.usize(..3)];
     let rule = ["area", "vertex"][random.usize(..2)];
     let gradation = ["", " --gradation 0.2"][if rule == "area" { random.usize(..2) } else { 0 }];
     format!("--spacing 0.25 --target {target} --h-min 0.02 --h-max 0.3 --rule {rule}{shape}{gradation}")

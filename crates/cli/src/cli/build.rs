@@ -110,8 +110,8 @@ impl FinishedMesh {
         self.derived.extract(self.mesh())
     }
 
-    /// Returns the polygons that the mesh meets, if there are some: those of the domain, or the zero line of its
-    /// formula.
+    /// Returns the polygons that the mesh meets, if there are some: those of the domain, or the zero line of
+    /// its formula.
     pub fn outline(&self) -> Option<Arc<Region>> {
         self.origin.spec.domain.outline(self.origin.spec.boundary)
     }

@@ -68,12 +68,12 @@ pub struct DomainOnLatticeBuilder {
     /// All but the region.
     indexed: DomainOnLattice,
     boundary: BoundaryTreatment,
-    outline: OutlineWork,
+    outline: OutlineIndexing,
 }
 
 /// The work that the outline of a domain needs.
 #[derive(Clone, Debug)]
-enum OutlineWork {
+enum OutlineIndexing {
     /// There is none, or none that is followed.
     Nothing,
     /// The zero line of a formula in a rectangle is followed first.
@@ -81,7 +81,7 @@ enum OutlineWork {
     Indexing(Box<RegionOnLatticeBuilder>),
 }
 
-impl OutlineWork {
+impl OutlineIndexing {
     fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         match &domain.shape {
             DomainShape::Whole => Self::Nothing,
@@ -142,7 +142,7 @@ impl DomainOnLatticeBuilder {
             edge_lengths,
             on_outline: false,
         };
-        Self { indexed, boundary, outline: OutlineWork::new(domain, boundary, lattice) }
+        Self { indexed, boundary, outline: OutlineIndexing::new(domain, boundary, lattice) }
     }
 
     /// One slice of work: about `budget` edges of the outline.
@@ -154,8 +154,8 @@ impl DomainOnLatticeBuilder {
     pub fn finish(mut self) -> DomainOnLattice {
         while self.advance(usize::MAX) == Progress::More {}
         let region = match self.outline {
-            OutlineWork::Indexing(region) => Some(Arc::new(region.finish())),
-            OutlineWork::Nothing | OutlineWork::Tracing(..) => None,
+            OutlineIndexing::Indexing(region) => Some(Arc::new(region.finish())),
+            OutlineIndexing::Nothing | OutlineIndexing::Tracing(..) => None,
         };
         DomainOnLattice { region, ..self.indexed }.with_boundary(self.boundary)
     }
@@ -184,14 +184,14 @@ impl DomainOnLattice {
         DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
     }
 
-    /// Returns whether [`Self::with_boundary`] gives what [`Self::new`] does: the zero line of a formula is not
-    /// known where no treatment has asked for it.
+    /// Returns whether [`Self::with_boundary`] gives what [`Self::new`] does: the zero line of a formula is
+    /// not known where no treatment has asked for it.
     pub fn serves(&self, boundary: BoundaryTreatment) -> bool {
         boundary == BoundaryTreatment::Report || self.formula.is_none() || self.region.is_some()
     }
 
-    /// Returns this domain on this lattice, with another treatment of its boundary. Of a formula, that must be
-    /// one that it [`serves`](Self::serves).
+    /// Returns this domain on this lattice, with another treatment of its boundary. Of a formula, that must
+    /// be one that it [`serves`](Self::serves).
     pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
         let fitted = boundary.diameter().filter(|_| self.region.is_some());
         let on_outline = fitted.is_some() && matches!(boundary, BoundaryTreatment::OnOutline { .. });

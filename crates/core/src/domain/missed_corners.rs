@@ -12,8 +12,8 @@ use crate::mesh::Extract;
 const COS_30: f64 = 0.866_025_403_784_438_6;
 
 impl Region {
-    /// Returns the corners at which the outline turns by more than 30° and a mesh has no node, in the order of
-    /// the rings, in world units. Nodes are on the lattice: of a corner, the nearest lattice point counts.
+    /// Returns the corners at which the outline turns by more than 30° and a mesh has no node, in the order
+    /// of the rings, in world units. Nodes are on the lattice: of a corner, the nearest lattice point counts.
     pub fn missed_corners(&self, mesh: &Extract) -> Vec<DVec2> {
         let nodes: HashSet<LatticePoint> = mesh.nodes().iter().copied().collect();
         let is_missed = |at: &DVec2| !nodes.contains(&mesh.lattice().nearest(*at));

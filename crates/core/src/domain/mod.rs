@@ -263,9 +263,9 @@ impl Domain {
         }
     }
 
-    /// Returns the polygons that the mesh meets in a way of treating the boundary: those of the domain, or the
-    /// zero line of its formula where nodes or triangles follow that. It is followed now unless it is known,
-    /// which takes some 50 ms for a circle, and can take seconds.
+    /// Returns the polygons that the mesh meets in a way of treating the boundary: those of the domain, or
+    /// the zero line of its formula where nodes or triangles follow that. It is followed now unless it is
+    /// known, which takes some 50 ms for a circle, and can take seconds.
     pub fn outline(&self, boundary: BoundaryTreatment) -> Option<Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region.clone()),
@@ -276,8 +276,8 @@ impl Domain {
         }
     }
 
-    /// Returns why a mesh cannot follow the zero line of the formula, if it is to do so and cannot. The line is
-    /// followed now unless it is known.
+    /// Returns why a mesh cannot follow the zero line of the formula, if it is to do so and cannot. The line
+    /// is followed now unless it is known.
     pub fn outline_error(&self, boundary: BoundaryTreatment) -> Option<ZeroLineError> {
         match &self.shape {
             DomainShape::Formula(shape) if boundary != BoundaryTreatment::Report => {

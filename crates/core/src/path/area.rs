@@ -37,8 +37,8 @@ const ROUNDING: [f64; 2] = [1e-12, 1e-14];
 
 impl PathArea {
     /// Returns the area of paths through a domain that stay out of regions, with a clearance in world units:
-    /// in the plane of a projection, in metres on the Earth. The outline that meshes of the domain meet limits
-    /// it, if there is one; where there is none, only the triangles of a mesh do.
+    /// in the plane of a projection, in metres on the Earth. The outline that meshes of the domain meet
+    /// limits it, if there is one; where there is none, only the triangles of a mesh do.
     ///
     /// # Errors
     /// Fails when the clearance is negative, NaN or infinite.

@@ -36,8 +36,8 @@ pub struct InputArguments {
 
     /// Keep the part of the domain where this formula in x and y is not 0
     ///
-    /// Nodes lie on the line where it becomes 0 or NaN, unless --boundary says otherwise. Parts and holes that
-    /// are narrower than a 4,096th of the longer side of the domain can be missed.
+    /// Nodes lie on the line where it becomes 0 or NaN, unless --boundary says otherwise. Parts and holes
+    /// that are narrower than a 4,096th of the longer side of the domain can be missed.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 

@@ -14,9 +14,9 @@ const BISECTIONS: u32 = 28;
 
 /// A square by column and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Square(pub GridNode);
+pub(super) struct GridSquare(pub GridNode);
 
-impl Square {
+impl GridSquare {
     /// Returns the lower left node.
     pub(super) fn node(self) -> GridNode {
         self.0
@@ -50,9 +50,9 @@ impl FormulaGrid {
     }
 
     /// Returns all squares.
-    pub(super) fn roots(&self) -> Vec<Square> {
+    pub(super) fn roots(&self) -> Vec<GridSquare> {
         let [columns, rows] = self.counts.map(i64::from);
-        (0..rows).flat_map(|row| (0..columns).map(move |column| Square([column, row]))).collect()
+        (0..rows).flat_map(|row| (0..columns).map(move |column| GridSquare([column, row]))).collect()
     }
 
     /// Halves the sides of all squares.
@@ -66,20 +66,20 @@ impl FormulaGrid {
     }
 
     /// Returns the quarters of a square, in the numbers of the next smaller squares.
-    pub(super) fn quarters(&self, Square([column, row]): &Square) -> Vec<Square> {
-        [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| Square([2 * column + x, 2 * row + y])).to_vec()
+    pub(super) fn quarters(&self, GridSquare([column, row]): &GridSquare) -> Vec<GridSquare> {
+        [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[x, y]| GridSquare([2 * column + x, 2 * row + y])).to_vec()
     }
 
     /// Returns the squares outside the rectangle that touch it: the line runs along its sides.
-    pub(super) fn squares_around(&self) -> impl Iterator<Item = Square> + use<> {
+    pub(super) fn squares_around(&self) -> impl Iterator<Item = GridSquare> + use<> {
         let [columns, rows] = self.counts.map(i64::from);
         let lines = (-1..=columns).flat_map(move |column| [[column, -1], [column, rows]]);
         let sides = (0..rows).flat_map(move |row| [[-1, row], [columns, row]]);
-        lines.chain(sides).map(Square)
+        lines.chain(sides).map(GridSquare)
     }
 
     /// Returns whether both sides of the line may occur in a square, by interval arithmetic.
-    pub(super) fn may_be_crossed(&self, &Square([column, row]): &Square) -> bool {
+    pub(super) fn may_be_crossed(&self, &GridSquare([column, row]): &GridSquare) -> bool {
         let rect = Rect { min: self.place([column, row]), max: self.place([column + 1, row + 1]) };
         let bounds = self.formula.bounds(&rect);
         let is_false = bounds.least == 0.0 && bounds.greatest == 0.0;
@@ -88,7 +88,7 @@ impl FormulaGrid {
     }
 
     /// Returns whether the corners of a square lie on different sides.
-    pub(super) fn is_crossed(&self, &Square([column, row]): &Square) -> bool {
+    pub(super) fn is_crossed(&self, &GridSquare([column, row]): &GridSquare) -> bool {
         let corners = [[column, row], [column + 1, row], [column + 1, row + 1], [column, row + 1]];
         let inside = corners.map(|node| self.is_inside(node));
         inside != [inside[0]; 4]

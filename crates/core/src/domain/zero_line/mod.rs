@@ -1,12 +1,12 @@
 //! The zero line of a formula as polygons: the boundary of the part of a rectangle where the formula is
 //! neither zero nor NaN.
 //!
-//! Interval arithmetic excludes squares that lie wholly on one side, down to squares of a 4096th of the longer
-//! side ([`grid`]). In the others, the line is where the corners of a square lie on different sides, from edge
-//! to edge (marching squares). Only the *side* of a point is asked for, so jumps and NaN are no special case.
-//! Each crossing is found by bisection, and each chord is divided until the line is at most [`TOLERANCE`]
-//! beside it ([`chords`]); so corners of the line, too, are found to about that. Points that lie between others
-//! on one line are left out, and the few points around a corner become one ([`thinning`]).
+//! Interval arithmetic excludes squares that lie wholly on one side, down to squares of a 4096th of the
+//! longer side ([`grid`]). In the others, the line is where the corners of a square lie on different sides,
+//! from edge to edge (marching squares). Only the *side* of a point is asked for, so jumps and NaN are no
+//! special case. Each crossing is found by bisection, and each chord is divided until the line is at most
+//! [`TOLERANCE`] beside it ([`chords`]); so corners of the line, too, are found to about that. Points that
+//! lie between others on one line are left out, and the few points around a corner become one ([`thinning`]).
 //!
 //! The polygons depend on the formula and the rectangle alone. Parts, holes and gaps that are narrower than
 //! the squares can be missed.
@@ -22,7 +22,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use self::grid::{FormulaGrid, Square};
+use self::grid::{FormulaGrid, GridSquare};
 use super::marching::{self, GridEdge};
 use super::{MOST_CORNERS, Region, Ring};
 use crate::field::Formula;
@@ -74,18 +74,18 @@ pub(super) struct ZeroLineTracer {
 enum TraceStep {
     /// Squares that may be crossed are quartered, from this one on.
     Halving {
-        squares: Vec<Square>,
+        squares: Vec<GridSquare>,
         next: usize,
-        quarters: Vec<Square>,
+        quarters: Vec<GridSquare>,
     },
     /// Smallest squares are looked at, from this one on.
     Crossing {
-        squares: Vec<Square>,
+        squares: Vec<GridSquare>,
         next: usize,
-        crossed: Vec<Square>,
+        crossed: Vec<GridSquare>,
     },
     /// The line is followed through the squares that it crosses.
-    Following(Vec<Square>),
+    Following(Vec<GridSquare>),
     /// The place on each edge is found, from this one on.
     Placing {
         chains: Chains,
@@ -167,11 +167,11 @@ impl ZeroLineTracer {
         }
     }
 
-    fn quarter(&mut self, squares: Vec<Square>, next: usize, mut quarters: Vec<Square>) -> TraceStep {
+    fn quarter(&mut self, squares: Vec<GridSquare>, next: usize, mut quarters: Vec<GridSquare>) -> TraceStep {
         let last = squares.len().min(next + AT_ONCE);
         let undecided =
-            |square: &Square| self.grid.may_be_crossed(square).then(|| self.grid.quarters(square));
-        let found: Vec<Option<Vec<Square>>> = squares[next..last].par_iter().map(undecided).collect();
+            |square: &GridSquare| self.grid.may_be_crossed(square).then(|| self.grid.quarters(square));
+        let found: Vec<Option<Vec<GridSquare>>> = squares[next..last].par_iter().map(undecided).collect();
         quarters.extend(found.into_iter().flatten().flatten());
         if last < squares.len() {
             return TraceStep::Halving { squares, next: last, quarters };
@@ -185,7 +185,7 @@ impl ZeroLineTracer {
         }
     }
 
-    fn cross(&self, squares: Vec<Square>, next: usize, mut crossed: Vec<Square>) -> TraceStep {
+    fn cross(&self, squares: Vec<GridSquare>, next: usize, mut crossed: Vec<GridSquare>) -> TraceStep {
         let last = squares.len().min(next + AT_ONCE);
         let found: Vec<bool> =
             squares[next..last].par_iter().map(|square| self.grid.is_crossed(square)).collect();
@@ -200,9 +200,9 @@ impl ZeroLineTracer {
         }
     }
 
-    fn follow(&self, crossed: Vec<Square>) -> TraceStep {
+    fn follow(&self, crossed: Vec<GridSquare>) -> TraceStep {
         let squares = crossed.into_iter().chain(self.grid.squares_around());
-        let chains = Chains::new(marching::rings(&self.grid, squares.map(Square::node)));
+        let chains = Chains::new(marching::rings(&self.grid, squares.map(GridSquare::node)));
         TraceStep::Placing { chains, points: Vec::new() }
     }
 

@@ -16,8 +16,8 @@ pub(super) fn thinned(ring: &[DVec2], tolerance: f64) -> Ring {
     with_corners(&without_points_between(ring, BESIDE * tolerance), tolerance)
 }
 
-/// Leaves out points that are at most `beside` beside the line between others (the algorithm of Ramer, Douglas
-/// and Peucker).
+/// Leaves out points that are at most `beside` beside the line between others (the algorithm of Ramer,
+/// Douglas and Peucker).
 fn without_points_between(ring: &[DVec2], beside: f64) -> Ring {
     let Some(&first) = ring.first() else { return Ring::new() };
     let farthest = (0..ring.len()).max_by(|&a, &b| {
