@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::region_builder::RegionOnLatticeBuilder;
 use super::zero_line::{ZeroLine, ZeroLineTracer};
-use super::{Domain, DomainShape, FormulaShape, RegionOnLattice};
+use super::{Domain, DomainShape, FormulaShape, LinesOnLattice, RegionOnLattice};
 use crate::earth::EdgeLengths;
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
@@ -141,6 +141,7 @@ impl DomainOnLatticeBuilder {
             fitted: None,
             edge_lengths,
             on_outline: false,
+            lines: None,
         };
         Self { indexed, boundary, outline: OutlineIndexing::new(domain, boundary, lattice) }
     }
@@ -175,6 +176,8 @@ pub struct DomainOnLattice {
     edge_lengths: EdgeLengths,
     /// Whether nodes along the boundary are moved onto it.
     on_outline: bool,
+    /// Lines along which a derived mesh has edges; `None` without any.
+    lines: Option<Arc<LinesOnLattice>>,
 }
 
 impl DomainOnLattice {
@@ -196,6 +199,19 @@ impl DomainOnLattice {
         let fitted = boundary.diameter().filter(|_| self.region.is_some());
         let on_outline = fitted.is_some() && matches!(boundary, BoundaryTreatment::OnOutline { .. });
         Self { fitted, on_outline, ..self.clone() }
+    }
+
+    /// Returns this domain with lines in place of former ones, which are on the same lattice. A mesh is not
+    /// refined for them; what is derived from it has edges along them
+    /// ([`DerivedMesh`](crate::outline::DerivedMesh)).
+    pub fn with_lines(&self, lines: LinesOnLattice) -> Self {
+        let lines = (!lines.is_empty()).then(|| Arc::new(lines));
+        Self { lines, ..self.clone() }
+    }
+
+    /// Returns the lines along which a derived mesh has edges.
+    pub fn lines(&self) -> Option<&LinesOnLattice> {
+        self.lines.as_deref()
     }
 
     /// Returns the lattice that the domain is indexed on.

@@ -4,6 +4,7 @@
 use glam::DVec2;
 
 use super::RegionOnLattice;
+use super::lines::crossing;
 use super::on_lattice::SquareState;
 use super::outline_edge::OutlineEdge;
 use crate::geometry::LatticePoint;
@@ -23,6 +24,15 @@ impl RegionOnLattice {
         }
         crossings.sort_by(f64::total_cmp);
         crossings.get(crossings.len().saturating_sub(1) / 2).copied().unwrap_or(0.5)
+    }
+
+    /// Returns the lattice points nearest to the crossings of the outline with a segment, in the order of the
+    /// region. Edges along the sides of the grid do not count, nor do those that only touch it.
+    pub(crate) fn crossings_with(&self, ends: [LatticePoint; 2]) -> Vec<LatticePoint> {
+        let [a, b] = ends.map(|p| [i64::from(p.x), i64::from(p.y)]);
+        let (low, high) = ([0, 1].map(|i| a[i].min(b[i])), [0, 1].map(|i| a[i].max(b[i])));
+        let point = |[x, y]: [i64; 2]| LatticePoint::new(x as u32, y as u32);
+        self.edges_near(low, high).filter_map(|edge| crossing(ends, edge.ends.map(point))).collect()
     }
 
     /// Returns the point of the outline nearest to `p`, if its distance is at most `reach`. Points are in

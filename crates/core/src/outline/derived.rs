@@ -2,6 +2,7 @@ use super::OutlineFollower;
 use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
 use super::lengths::EdgeTargets;
+use super::lines::{LineFit, fit_lines};
 use super::stages::{DerivationAction, Watch};
 use crate::domain::DomainOnLattice;
 use crate::geometry::LatticePoint;
@@ -16,6 +17,7 @@ use crate::mesh::{Cleaning, Extract, Mesh, MeshPatch, Removed};
 pub struct DerivedMesh {
     patch: MeshPatch,
     fit: Option<OutlineFit>,
+    line_fits: Vec<LineFit>,
     removed: Removed,
     removed_triangles: Vec<[LatticePoint; 3]>,
     allows_pinches: bool,
@@ -50,28 +52,50 @@ impl DerivedMesh {
         if changes.is_none() {
             watch(DerivationAction::RemoveByCentroid, &MeshPatch::default);
         }
-        let derived = Self::cleaned(mesh, changes, cleaning);
+        let derived = Self::cleaned(mesh, domain, changes, targets, cleaning);
         watch(DerivationAction::Clean, &|| derived.patch.clone());
         derived
     }
 
     /// Returns the mesh that [`Self::new`] derives, from nodes on the outline that were kept in step with the
-    /// mesh.
-    pub fn of_follower(mesh: &Mesh, outline: &OutlineFollower, cleaning: &Cleaning) -> Self {
-        Self::cleaned(mesh, Some(outline.changes(mesh)), cleaning)
+    /// mesh. Edges along lines are made anew.
+    pub fn of_follower(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        outline: &OutlineFollower,
+        targets: Option<EdgeTargets>,
+        cleaning: &Cleaning,
+    ) -> Self {
+        Self::cleaned(mesh, domain, Some(outline.changes(mesh)), targets, cleaning)
     }
 
-    pub(super) fn cleaned(mesh: &Mesh, changes: Option<OutlineChanges>, cleaning: &Cleaning) -> Self {
-        let (mut patch, fit, corner_limit) = match changes {
+    pub(super) fn cleaned(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        changes: Option<OutlineChanges>,
+        targets: Option<EdgeTargets>,
+        cleaning: &Cleaning,
+    ) -> Self {
+        let (mut patch, fit, mut corner_limit) = match changes {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
             None => (MeshPatch::default(), None, 0.0),
         };
+        let mut line_fits = Vec::new();
+        if let Some(lines) = domain.lines() {
+            let fitted = fit_lines(mesh, &patch, lines, domain.region_on_outline(), targets);
+            (patch, line_fits) = (fitted.patch, fitted.fits);
+            corner_limit = corner_limit.max(fitted.corner_limit);
+        }
         let mut removed_triangles = Vec::new();
         let removed = patch.clean_and_report(mesh, cleaning, &mut |corners| removed_triangles.push(corners));
         let removed_triangles =
             removed_triangles.into_iter().map(|corners| corners.map(|node| patch.node(mesh, node))).collect();
+        if removed.triangles > 0 && !line_fits.is_empty() {
+            let extract = mesh.extract_with(&patch);
+            line_fits.iter_mut().for_each(|fit| fit.keep_edges_of(&extract));
+        }
         let allows_pinches = fit.is_none() && cleaning.keeps_pinches;
-        Self { patch, fit, removed, removed_triangles, allows_pinches, corner_limit }
+        Self { patch, fit, line_fits, removed, removed_triangles, allows_pinches, corner_limit }
     }
 
     /// Returns the mesh with the changes, for files and summaries.
@@ -91,6 +115,11 @@ impl DerivedMesh {
     /// domain does not require nodes on the outline.
     pub fn fit(&self) -> Option<OutlineFit> {
         self.fit
+    }
+
+    /// Returns how well the mesh fits the lines of the domain, in their order.
+    pub fn line_fits(&self) -> &[LineFit] {
+        &self.line_fits
     }
 
     /// Returns the numbers of removed parts and nodes.

@@ -70,7 +70,9 @@ impl MeshDerivation {
         ) {
             (DerivationStep::Done, _) => return Progress::Done,
             (DerivationStep::Clean(changes, fitted), _) => {
-                self.derived = Some(DerivedMesh::cleaned(&self.mesh, changes, &self.cleaning));
+                let derived =
+                    DerivedMesh::cleaned(&self.mesh, &self.domain, changes, targets, &self.cleaning);
+                self.derived = Some(derived);
                 fitted.map_or(DerivationStep::Done, |(corners, fitted)| {
                     DerivationStep::Follow(corners, fitted, None)
                 })

@@ -184,7 +184,7 @@ impl Scene {
         let (mesh, domain) = (self.follower.mesh(), self.follower.domain());
         let targets = self.follower.edge_targets(self.document.paint());
         let scratch = DerivedMesh::new(mesh, domain, targets, &Cleaning::NONE);
-        let kept = DerivedMesh::of_follower(mesh, &self.outline, &Cleaning::NONE);
+        let kept = DerivedMesh::of_follower(mesh, domain, &self.outline, targets, &Cleaning::NONE);
         let name = format!("{}, edit {edit}", self.name);
         assert!(triangles(mesh, &kept) == triangles(mesh, &scratch), "{name}: other triangles");
         assert_eq!(kept.fit(), scratch.fit(), "{name}");
@@ -252,10 +252,8 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
             let (mesh, domain) = (scene.follower.mesh(), scene.follower.domain());
             let targets = scene.follower.edge_targets(scene.document.paint());
             let scratch = DerivedMesh::new(mesh, domain, targets, &Cleaning::NONE);
-            (
-                scratch.patch().clone(),
-                triangles(mesh, &DerivedMesh::of_follower(mesh, &scene.outline, &Cleaning::NONE)),
-            )
+            let kept = DerivedMesh::of_follower(mesh, domain, &scene.outline, targets, &Cleaning::NONE);
+            (scratch.patch().clone(), triangles(mesh, &kept))
         })
     };
     let one = in_pool(1);

@@ -1,0 +1,280 @@
+//! Puts lines into connected triangles, as far as the angles allow.
+
+use super::improve::Improver;
+use super::insert::Inserter;
+use super::local::{LocalMesh, NodeState};
+use super::sharp::SharpNodes;
+use super::stops::{CutSegment, Stop, StopKind, meets, rect_around};
+use crate::domain::{is_near, lies_between, place};
+use crate::geometry::{LatticePoint, Rect};
+use crate::mesh::Mesh;
+use crate::outline::angles::Angles;
+use crate::outline::lengths::{LengthAnswers, LengthRule};
+
+/// Attempts before everything that is left near a small angle is left out.
+const ATTEMPTS: usize = 80;
+/// Times that edges longer than their target are cut in an attempt.
+const HALVINGS: usize = 4;
+
+/// Connected triangles and the segments in them.
+pub(super) struct Island<'a> {
+    pub(super) start: LocalMesh,
+    pub(super) cuts: Vec<CutSegment>,
+    /// For each segment, the stretches that are left out: they have no edges.
+    left_out: Vec<Vec<bool>>,
+    pub(super) shared: &'a Shared<'a>,
+}
+
+/// What is the same for all islands.
+pub(super) struct Shared<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) angles: Angles,
+    pub(super) lengths: LengthRule<'a>,
+    pub(super) segments: &'a [[LatticePoint; 2]],
+    pub(super) extent: LatticePoint,
+}
+
+/// Stretches of a segment, one after the other, that become edges.
+#[derive(Clone, Copy)]
+struct Run {
+    cut: usize,
+    /// The first stop and the last one.
+    stops: [usize; 2],
+}
+
+/// A stretch of a segment: the number of the segment in the island, and that of the stretch.
+type Stretch = (usize, usize);
+
+impl<'a> Island<'a> {
+    pub(super) fn new(start: LocalMesh, cuts: Vec<CutSegment>, shared: &'a Shared<'a>) -> Self {
+        let left_out = cuts.iter().map(|cut| vec![false; cut.inside.len()]).collect();
+        Self { start, cuts, left_out, shared }
+    }
+
+    /// Returns the triangles with edges on the segments. What cannot have edges is left out, a stretch after
+    /// the other: at last, nothing changes.
+    pub(super) fn fit(&mut self) -> LocalMesh {
+        for attempt in 0..ATTEMPTS {
+            let mut local = self.start.clone();
+            let mut failing = self.insert(&mut local);
+            self.improve(&mut local);
+            let poor = self.failing(&local);
+            if failing.is_empty() && poor.is_empty() {
+                self.find_edges(&mut local);
+                return local;
+            }
+            failing.sort_unstable();
+            failing.dedup();
+            failing.extend(self.stretches_at(&local, &poor, attempt));
+            failing.iter().for_each(|&(cut, stretch)| self.left_out[cut][stretch] = true);
+        }
+        self.left_out.iter_mut().flatten().for_each(|out| *out = true);
+        self.start.clone()
+    }
+
+    /// Notes the edges that lie on stretches that are left out: between nodes on both sides of one.
+    fn find_edges(&self, local: &mut LocalMesh) {
+        let settled = |v: &u32| local.states[*v as usize] != NodeState::Free;
+        let nodes: Vec<u32> = (0..local.points.len() as u32).filter(settled).collect();
+        let mut star = Vec::new();
+        let cuts = self.cuts.iter().zip(&self.left_out).filter(|(_, left_out)| left_out.contains(&true));
+        for (cut, _) in cuts {
+            let is_on = |p: LatticePoint| {
+                cut.ends.contains(&p) || (is_near(cut.ends, p) && lies_between(cut.ends, p))
+            };
+            let on_segment = |v: &&u32| is_on(local.points[**v as usize]);
+            for &v in nodes.iter().filter(on_segment).collect::<Vec<_>>() {
+                local.triangles.star(v, &mut star);
+                let ends = star.iter().flat_map(|&(t, i)| local.triangles.starting_at(t, i));
+                let ends: Vec<u32> = ends.filter(|&w| w != v && is_on(local.points[w as usize])).collect();
+                for w in ends {
+                    local.fixed.entry(LocalMesh::key(v, w)).or_insert(cut.segment);
+                }
+            }
+        }
+    }
+
+    fn improve(&self, local: &mut LocalMesh) {
+        let shared = self.shared;
+        let mut improver = Improver {
+            angles: &shared.angles,
+            answers: shared.lengths.answers(),
+            extent: shared.extent,
+            segments: shared.segments,
+        };
+        improver.run(local);
+        for _ in 0..HALVINGS {
+            let mut answers = shared.lengths.answers();
+            let counts = |local: &LocalMesh, t: u32| {
+                self.has_changed(local, t) && self.meets_target(local, t, &mut answers)
+            };
+            if !shared.lengths.is_any() || !improver.halve_long(local, counts) {
+                return;
+            }
+            improver.run(local);
+        }
+    }
+
+    /// Returns whether the triangle of the mesh at a place is not larger than its target.
+    fn meets_target(&self, local: &LocalMesh, t: u32, answers: &mut LengthAnswers) -> bool {
+        let mesh = self.shared.mesh;
+        local.owners[t as usize]
+            .is_some_and(|owner| !answers.ask_for_more(mesh.corners(owner), mesh.triangle(owner).level()))
+    }
+
+    fn has_changed(&self, local: &LocalMesh, t: u32) -> bool {
+        (t as usize) >= self.start.triangles.len() || local.corners(t) != self.start.corners(t)
+    }
+
+    /// Returns the stretches that are to become edges, as far as they are connected.
+    fn runs(&self) -> Vec<Run> {
+        let mut runs: Vec<Run> = Vec::new();
+        for (cut, of) in self.cuts.iter().enumerate() {
+            for n in (0..of.inside.len()).filter(|&n| of.inside[n] && !self.left_out[cut][n]) {
+                match runs.last_mut() {
+                    Some(run) if run.cut == cut && run.stops[1] == n => run.stops[1] = n + 1,
+                    _ => runs.push(Run { cut, stops: [n, n + 1] }),
+                }
+            }
+        }
+        runs
+    }
+
+    /// Puts the runs into triangles, and returns the stretches for which that was not possible.
+    fn insert(&self, local: &mut LocalMesh) -> Vec<Stretch> {
+        let (runs, mut failing) = (self.runs(), Vec::new());
+        let mut ends: Vec<(u8, LatticePoint, usize, usize)> = Vec::new();
+        for (n, run) in runs.iter().enumerate() {
+            for end in 0..2 {
+                let stop = self.stop(run, end);
+                ends.push((u8::from(stop.kind == StopKind::Inside), stop.at, n, end));
+            }
+        }
+        ends.sort_unstable();
+        let mut nodes = vec![[None; 2]; runs.len()];
+        let mut inserter = Inserter::new(local, &self.shared.angles);
+        for (_, _, n, end) in ends {
+            let stop = *self.stop(&runs[n], end);
+            nodes[n][end] = inserter.node_at(&stop, self.cuts[runs[n].cut].segment);
+            if nodes[n][end].is_none() {
+                failing.push(self.stretch_at(&runs[n], stop.at));
+            }
+        }
+        for (run, nodes) in runs.iter().zip(nodes) {
+            let cut = &self.cuts[run.cut];
+            if let [Some(from), Some(to)] = nodes
+                && let Err(at) = inserter.walk(cut.segment, cut.ends, [from, to])
+            {
+                failing.push(self.stretch_at(run, at));
+            }
+        }
+        failing
+    }
+
+    fn stop(&self, run: &Run, end: usize) -> &Stop {
+        &self.cuts[run.cut].stops[run.stops[end]]
+    }
+
+    /// Returns the stretch of a run in which a place is, or the nearest one.
+    fn stretch_at(&self, run: &Run, at: LatticePoint) -> Stretch {
+        let cut = &self.cuts[run.cut];
+        let [a, b] = cut.ends.map(place);
+        let along = |p: LatticePoint| {
+            let [x, y] = place(p);
+            (b[0] - a[0]) * (x - a[0]) + (b[1] - a[1]) * (y - a[1])
+        };
+        let found = (run.stops[0]..run.stops[1]).find(|&n| along(cut.stops[n + 1].at) > along(at));
+        (run.cut, found.unwrap_or(run.stops[1] - 1))
+    }
+
+    /// Returns the triangles that have too small an angle or too long an edge, the worst first.
+    fn failing(&self, local: &LocalMesh) -> Vec<u32> {
+        let (angles, mut answers) = (&self.shared.angles, self.shared.lengths.answers());
+        let sharp = SharpNodes::new(local, angles);
+        let mut failing = Vec::new();
+        for t in 0..local.triangles.len() as u32 {
+            if !local.is_alive(t) || !self.has_changed(local, t) {
+                continue;
+            }
+            let worst = angles.worst(local.corners(t));
+            let limit = local.triangles.corners[t as usize]
+                .iter()
+                .map(|&v| sharp.limit(v).max(local.poor_at.get(v as usize).copied().unwrap_or(0.0)))
+                .fold(angles.limit(), f64::max);
+            if worst > limit
+                || (answers.exceed(local.corners(t)) && self.meets_target(local, t, &mut answers))
+            {
+                failing.push((worst, t));
+            }
+        }
+        failing.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        failing.into_iter().map(|(_, t)| t).collect()
+    }
+
+    /// Returns stretches to leave out for triangles that fail: one for each, unless another one nearby was
+    /// found before.
+    fn stretches_at(&self, local: &LocalMesh, failing: &[u32], attempt: usize) -> Vec<Stretch> {
+        let mut found = Vec::new();
+        let mut taken: Vec<Rect> = Vec::new();
+        let candidates: Vec<Stretch> = (0..self.cuts.len())
+            .flat_map(|cut| (0..self.cuts[cut].inside.len()).map(move |n| (cut, n)))
+            .filter(|&(cut, n)| self.cuts[cut].inside[n] && !self.left_out[cut][n])
+            .collect();
+        for &t in failing {
+            let corners = local.corners(t);
+            let rect = rect_around(&corners, 1.0);
+            if taken.iter().any(|other| rect.min.cmple(other.max).all() && other.min.cmple(rect.max).all()) {
+                continue;
+            }
+            let size = rect.size().max_element();
+            let mut margin = size * attempt as f64 / 16.0;
+            while margin < 4.0 * self.shared.extent.as_dvec2().max_element() {
+                let around = rect_around(&corners, margin + 1.0);
+                let is_near = |&&(cut, n): &&Stretch| {
+                    let stops = &self.cuts[cut].stops;
+                    meets(&around, [stops[n].at, stops[n + 1].at])
+                };
+                if let Some(&stretch) = candidates.iter().rfind(is_near) {
+                    found.push(stretch);
+                    taken.push(rect_around(&corners, margin + size));
+                    break;
+                }
+                margin = 2.0 * margin + size;
+            }
+        }
+        found
+    }
+
+    /// Returns the stretches in the domain that have no edges, joined where they follow one another: the
+    /// number of the segment and the ends.
+    pub(super) fn unresolved(&self) -> Vec<(u32, [Stop; 2])> {
+        let mut found = Vec::new();
+        for (cut, left_out) in self.cuts.iter().zip(&self.left_out) {
+            let mut from = None;
+            for n in 0..=cut.inside.len() {
+                let is_out = n < cut.inside.len() && cut.inside[n] && left_out[n];
+                match (is_out, from) {
+                    (true, None) => from = Some(n),
+                    (false, Some(first)) => {
+                        found.push((cut.segment, [cut.stops[first], cut.stops[n]]));
+                        from = None;
+                    }
+                    _ => {}
+                }
+            }
+        }
+        found
+    }
+
+    /// Returns the diameter of a triangle of the start at a stop, in world units.
+    pub(super) fn diameter_at(&self, stop: &Stop) -> f64 {
+        let mut star = Vec::new();
+        self.start.triangles.star(stop.near, &mut star);
+        let longest = |&(t, _): &(u32, usize)| {
+            let [a, b, c] = self.start.corners(t);
+            let length = |a, b| self.shared.angles.vector(a, b).length();
+            length(a, b).max(length(b, c)).max(length(c, a))
+        };
+        star.iter().map(longest).fold(f64::INFINITY, f64::min)
+    }
+}
