@@ -22,6 +22,7 @@ mod formula_mesh;
 mod golden;
 mod guards;
 mod layers;
+mod lines;
 mod many_directions;
 mod mirrored;
 mod node_means;

@@ -290,12 +290,11 @@ impl Improver<'_> {
     fn halve(&self, local: &mut LocalMesh, t: u32, i: usize) -> bool {
         let [a, b, c] = local.triangles.starting_at(t, i);
         let [pa, pb, pc] = [a, b, c].map(|v| local.points[v as usize]);
-        let on_boundary = local.triangles.across[t as usize][i] == NONE;
-        let segment = local.fixed.get(&LocalMesh::key(b, c)).copied();
-        let is_rim = on_boundary && !(local.on_boundary[b as usize] && local.on_boundary[c as usize]);
-        if is_rim {
+        let on_boundary = local.is_boundary(t, i);
+        if !on_boundary && local.triangles.across[t as usize][i] == NONE {
             return false;
         }
+        let segment = local.fixed.get(&LocalMesh::key(b, c)).copied();
         let x = LatticePoint::new((pb.x + pc.x) / 2, (pb.y + pc.y) / 2);
         let state = match (segment, on_boundary) {
             (_, true) => NodeState::Fixed,

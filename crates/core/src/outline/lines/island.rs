@@ -1,20 +1,28 @@
 //! Puts lines into connected triangles, as far as the angles allow.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::ops::ControlFlow;
+
+use glam::DVec2;
+
 use super::improve::Improver;
 use super::insert::Inserter;
 use super::local::{LocalMesh, NodeState};
 use super::sharp::SharpNodes;
 use super::stops::{CutSegment, Stop, StopKind, meets, rect_around};
 use crate::domain::{is_near, lies_between, place};
-use crate::geometry::{LatticePoint, Rect};
+use crate::geometry::{BoxTree, LatticePoint, Rect, nearest_on_segment};
 use crate::mesh::Mesh;
 use crate::outline::angles::Angles;
 use crate::outline::lengths::{LengthAnswers, LengthRule};
 
 /// Attempts before everything that is left near a small angle is left out.
-const ATTEMPTS: usize = 80;
+const ATTEMPTS: usize = 40;
 /// Times that edges longer than their target are cut in an attempt.
 const HALVINGS: usize = 4;
+
+/// Share of the diameter of the triangles that a segment is long at least, for an attempt to be worth it.
+const SHORTEST: f64 = 0.25;
 
 /// Connected triangles and the segments in them.
 pub(super) struct Island<'a> {
@@ -46,9 +54,18 @@ struct Run {
 type Stretch = (usize, usize);
 
 impl<'a> Island<'a> {
+    /// Segments that are much shorter than the triangles are left out from the beginning.
     pub(super) fn new(start: LocalMesh, cuts: Vec<CutSegment>, shared: &'a Shared<'a>) -> Self {
-        let left_out = cuts.iter().map(|cut| vec![false; cut.inside.len()]).collect();
-        Self { start, cuts, left_out, shared }
+        let mut island = Self { start, cuts, left_out: Vec::new(), shared };
+        let is_short = |cut: &CutSegment| {
+            let [a, b] = cut.ends;
+            let diameter = |stop: &Stop| island.diameter_at(stop);
+            let least = cut.stops.iter().map(diameter).fold(f64::INFINITY, f64::min);
+            shared.angles.vector(a, b).length() < SHORTEST * least
+        };
+        let left_out = island.cuts.iter().map(|cut| vec![is_short(cut); cut.inside.len()]).collect();
+        island.left_out = left_out;
+        island
     }
 
     /// Returns the triangles with edges on the segments. What cannot have edges is left out, a stretch after
@@ -76,14 +93,22 @@ impl<'a> Island<'a> {
     fn find_edges(&self, local: &mut LocalMesh) {
         let settled = |v: &u32| local.states[*v as usize] != NodeState::Free;
         let nodes: Vec<u32> = (0..local.points.len() as u32).filter(settled).collect();
-        let mut star = Vec::new();
+        let boxes: Vec<Rect> =
+            nodes.iter().map(|&v| rect_around(&[local.points[v as usize]], 1.0)).collect();
+        let (tree, mut star) = (BoxTree::new(&boxes), Vec::new());
         let cuts = self.cuts.iter().zip(&self.left_out).filter(|(_, left_out)| left_out.contains(&true));
         for (cut, _) in cuts {
             let is_on = |p: LatticePoint| {
                 cut.ends.contains(&p) || (is_near(cut.ends, p) && lies_between(cut.ends, p))
             };
-            let on_segment = |v: &&u32| is_on(local.points[**v as usize]);
-            for &v in nodes.iter().filter(on_segment).collect::<Vec<_>>() {
+            let mut on_segment = Vec::new();
+            let _ = tree.visit_meeting(&rect_around(&cut.ends, 1.0), |n| {
+                let v = nodes[n as usize];
+                on_segment.extend(is_on(local.points[v as usize]).then_some(v));
+                ControlFlow::Continue(())
+            });
+            on_segment.sort_unstable();
+            for v in on_segment {
                 local.triangles.star(v, &mut star);
                 let ends = star.iter().flat_map(|&(t, i)| local.triangles.starting_at(t, i));
                 let ends: Vec<u32> = ends.filter(|&w| w != v && is_on(local.points[w as usize])).collect();
@@ -220,6 +245,9 @@ impl<'a> Island<'a> {
             .flat_map(|cut| (0..self.cuts[cut].inside.len()).map(move |n| (cut, n)))
             .filter(|&(cut, n)| self.cuts[cut].inside[n] && !self.left_out[cut][n])
             .collect();
+        let ends = |(cut, n): Stretch| [n, n + 1].map(|n| self.cuts[cut].stops[n].at);
+        let boxes: Vec<Rect> = candidates.iter().map(|&stretch| rect_around(&ends(stretch), 1.0)).collect();
+        let tree = BoxTree::new(&boxes);
         for &t in failing {
             let corners = local.corners(t);
             let rect = rect_around(&corners, 1.0);
@@ -227,15 +255,19 @@ impl<'a> Island<'a> {
                 continue;
             }
             let size = rect.size().max_element();
-            let mut margin = size * attempt as f64 / 16.0;
+            let mut margin = size * attempt as f64 / 8.0;
             while margin < 4.0 * self.shared.extent.as_dvec2().max_element() {
                 let around = rect_around(&corners, margin + 1.0);
-                let is_near = |&&(cut, n): &&Stretch| {
-                    let stops = &self.cuts[cut].stops;
-                    meets(&around, [stops[n].at, stops[n + 1].at])
-                };
-                if let Some(&stretch) = candidates.iter().rfind(is_near) {
-                    found.push(stretch);
+                // The last one in their order.
+                let mut last = None;
+                let _ = tree.visit_meeting(&around, |n| {
+                    if meets(&around, ends(candidates[n as usize])) {
+                        last = last.max(Some(n));
+                    }
+                    ControlFlow::Continue(())
+                });
+                if let Some(n) = last {
+                    found.push(candidates[n as usize]);
                     taken.push(rect_around(&corners, margin + size));
                     break;
                 }
@@ -266,15 +298,46 @@ impl<'a> Island<'a> {
         found
     }
 
-    /// Returns the diameter of a triangle of the start at a stop, in world units.
-    pub(super) fn diameter_at(&self, stop: &Stop) -> f64 {
+    /// Returns the diameter of the smallest triangle of the start at a stop, in world units.
+    fn diameter_at(&self, stop: &Stop) -> f64 {
         let mut star = Vec::new();
         self.start.triangles.star(stop.near, &mut star);
-        let longest = |&(t, _): &(u32, usize)| {
-            let [a, b, c] = self.start.corners(t);
-            let length = |a, b| self.shared.angles.vector(a, b).length();
-            length(a, b).max(length(b, c)).max(length(c, a))
+        let length = |a, b| self.shared.angles.vector(a, b).length();
+        let longest = |[a, b, c]: [LatticePoint; 3]| length(a, b).max(length(b, c)).max(length(c, a));
+        star.iter().map(|&(t, _)| longest(self.start.corners(t))).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the boundary of the domain there.
+    pub(super) fn boundary(&self) -> LocalBoundary {
+        let (start, step) = (&self.start, self.shared.angles.step());
+        let all = (0..start.triangles.len() as u32).flat_map(|t| [0, 1, 2].map(|i| (t, i)));
+        let edge = |(t, i): (u32, usize)| {
+            let [_, b, c] = start.triangles.starting_at(t, i);
+            [b, c].map(|v| start.points[v as usize].as_dvec2() * step)
         };
-        star.iter().map(longest).fold(f64::INFINITY, f64::min)
+        let edges: Vec<[DVec2; 2]> = all.filter(|&(t, i)| start.is_boundary(t, i)).map(edge).collect();
+        let boxes: Vec<Rect> = edges.iter().map(|[a, b]| Rect::new(a.min(*b), a.max(*b))).collect();
+        LocalBoundary { edges, tree: BoxTree::new(&boxes) }
+    }
+
+    /// Returns an estimate of the diameter that a stretch needs because of the boundary near its middle, in
+    /// world units: at most the diameter of the triangles at it, divided by √2.
+    pub(super) fn size_at(&self, ends: [Stop; 2], boundary: &LocalBoundary) -> f64 {
+        let own = ends.iter().map(|stop| self.diameter_at(stop)).fold(0.0, f64::max) * FRAC_1_SQRT_2;
+        let [a, b] = ends.map(|stop| stop.at.as_dvec2() * self.shared.angles.step());
+        own.min(boundary.distance(0.5 * (a + b)))
+    }
+}
+
+/// The boundary of the domain near lines, in world units from the corner of the grid.
+pub(super) struct LocalBoundary {
+    edges: Vec<[DVec2; 2]>,
+    tree: BoxTree,
+}
+
+impl LocalBoundary {
+    fn distance(&self, p: DVec2) -> f64 {
+        let squared = |n: u32| nearest_on_segment(p, self.edges[n as usize]).distance_squared(p);
+        self.tree.nearest(p, squared).map_or(f64::INFINITY, |(_, squared)| squared.sqrt())
     }
 }

@@ -31,7 +31,8 @@ pub(super) struct LocalMesh {
     pub(super) owners: Vec<Option<TriangleId>>,
     pub(super) points: Vec<LatticePoint>,
     pub(super) states: Vec<NodeState>,
-    /// For each node, whether it is on the boundary of the domain.
+    /// For each node, whether it is on the boundary of the domain. Not known of nodes at which some triangles
+    /// are missing.
     pub(super) on_boundary: Vec<bool>,
     /// For each node of the start, the cotangent of the smallest angle around it, if that is below the bound.
     pub(super) poor_at: Vec<f64>,
@@ -144,8 +145,9 @@ impl LocalMesh {
         for v in 0..self.points.len() as u32 {
             let n = v as usize;
             self.triangles.star(v, &mut star);
-            self.on_boundary[n] = !self.closes(&star);
-            let is_whole = is_complete[self.ids[n].index()] && star.len() == counts[n];
+            let is_complete = is_complete[self.ids[n].index()];
+            self.on_boundary[n] = is_complete && !self.closes(&star);
+            let is_whole = is_complete && star.len() == counts[n];
             self.states[n] = if !is_whole {
                 NodeState::Fixed
             } else if !self.on_boundary[n] {
@@ -245,6 +247,14 @@ impl LocalMesh {
                 }
             }
         }
+    }
+
+    /// Returns whether the domain ends at the edge opposite the i-th corner of a triangle.
+    pub(super) fn is_boundary(&self, triangle: u32, i: usize) -> bool {
+        let [_, b, c] = self.triangles.starting_at(triangle, i);
+        // Where neither is known to be on the boundary, the local triangles end.
+        self.triangles.across[triangle as usize][i] == NONE
+            && (self.on_boundary[b as usize] || self.on_boundary[c as usize])
     }
 
     pub(super) fn is_alive(&self, triangle: u32) -> bool {

@@ -1,7 +1,5 @@
 //! How well a mesh fits lines.
 
-use std::cmp::Ordering;
-
 use glam::DVec2;
 
 use super::island::Island;
@@ -106,7 +104,8 @@ struct SegmentFit {
     edges: Vec<[LatticePoint; 2]>,
     /// Parts in the domain, as shares of the length.
     inside: Vec<[f64; 2]>,
-    /// Parts that were left out, with the diameter of the triangles there, in world units.
+    /// Parts that were left out, with the diameter that is needed there because of the boundary and because
+    /// the triangles there are too large, in world units.
     left_out: Vec<([f64; 2], f64)>,
 }
 
@@ -128,10 +127,10 @@ pub(super) fn fits(mesh: &Mesh, lines: &LinesOnLattice, fitted: &[(Island, Local
             let inside = (0..cut.inside.len()).filter(|&n| cut.inside[n]);
             of_segment.inside.extend(inside.map(|n| [at(n, true), at(n + 1, false)]));
         }
+        let boundary = island.boundary();
         for (segment, ends) in island.unresolved() {
-            let diameter = ends.iter().map(|stop| island.diameter_at(stop)).fold(0.0, f64::max);
             let shares = ends.map(|stop| share(segment, stop.at));
-            found.entry(segment).or_default().left_out.push((shares, diameter));
+            found.entry(segment).or_default().left_out.push((shares, island.size_at(ends, &boundary)));
         }
     }
     for (&segment, of_segment) in &mut found {
@@ -252,7 +251,7 @@ impl Reporter<'_> {
                 let own = found.left_out.iter().filter(|(part, _)| part[0] <= middle && middle <= part[1]);
                 let diameter = own.map(|(_, diameter)| *diameter).fold(f64::INFINITY, f64::min);
                 let size = self.sizes.at(segment, a + middle * (b - a));
-                Some((LineProblem::TooCoarse, Some(size.min(diameter / std::f64::consts::SQRT_2))))
+                Some((LineProblem::TooCoarse, Some(size.min(diameter))))
             } else {
                 Some((LineProblem::OutsideDomain, None))
             };
@@ -285,9 +284,9 @@ fn unresolved(pieces: &[Piece]) -> Vec<UnresolvedPlace> {
             half -= piece.length;
             half <= 0.0
         });
-        let diameters = run.iter().filter_map(|piece| piece.problem.and_then(|(_, diameter)| diameter));
-        let diameter = diameters.min_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
-        Some(UnresolvedPlace { place: middle.unwrap_or(&run[0]).place, length, problem, diameter })
+        let middle = middle.unwrap_or(&run[0]);
+        let diameter = middle.problem.and_then(|(_, diameter)| diameter);
+        Some(UnresolvedPlace { place: middle.place, length, problem, diameter })
     };
     runs.filter_map(place).collect()
 }
