@@ -17,12 +17,12 @@ use crate::outline::angles::Angles;
 use crate::outline::lengths::{LengthAnswers, LengthRule};
 
 /// Attempts before everything that is left near a small angle is left out.
-const ATTEMPTS: usize = 40;
+const ATTEMPTS: usize = 400;
 /// Times that edges longer than their target are cut in an attempt.
 const HALVINGS: usize = 4;
 
 /// Share of the diameter of the triangles that a segment is long at least, for an attempt to be worth it.
-const SHORTEST: f64 = 0.25;
+const SHORTEST: f64 = 0.15;
 
 /// Connected triangles and the segments in them.
 pub(super) struct Island<'a> {
@@ -93,8 +93,7 @@ impl<'a> Island<'a> {
     fn find_edges(&self, local: &mut LocalMesh) {
         let settled = |v: &u32| local.states[*v as usize] != NodeState::Free;
         let nodes: Vec<u32> = (0..local.points.len() as u32).filter(settled).collect();
-        let boxes: Vec<Rect> =
-            nodes.iter().map(|&v| rect_around(&[local.points[v as usize]], 1.0)).collect();
+        let boxes: Vec<Rect> = nodes.iter().map(|&v| rect_around(&[local.points[v as usize]], 1.0)).collect();
         let (tree, mut star) = (BoxTree::new(&boxes), Vec::new());
         let cuts = self.cuts.iter().zip(&self.left_out).filter(|(_, left_out)| left_out.contains(&true));
         for (cut, _) in cuts {
@@ -255,7 +254,7 @@ impl<'a> Island<'a> {
                 continue;
             }
             let size = rect.size().max_element();
-            let mut margin = size * attempt as f64 / 8.0;
+            let mut margin = size * attempt as f64 / 512.0;
             while margin < 4.0 * self.shared.extent.as_dvec2().max_element() {
                 let around = rect_around(&corners, margin + 1.0);
                 // The last one in their order.

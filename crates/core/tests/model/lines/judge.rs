@@ -51,10 +51,14 @@ pub fn judge(extract: &Extract, lines: &[Line], name: &str) -> Found {
     }
     let used: HashSet<usize> = owners.keys().flatten().copied().collect();
     assert_eq!(used.len(), nodes.len(), "{name}: every node is used");
-    let ends: Vec<[DVec2; 2]> =
-        owners.keys().filter(|[a, b]| a < b || !owners.contains_key(&[*b, *a])).map(|e| e.map(|v| nodes[v])).collect();
+    let ends: Vec<[DVec2; 2]> = owners
+        .keys()
+        .filter(|[a, b]| a < b || !owners.contains_key(&[*b, *a]))
+        .map(|e| e.map(|v| nodes[v]))
+        .collect();
     let tolerance = 3.0 * extract.lattice().step().max_element();
-    found.on_edges = lines.iter().map(|line| edges(line).iter().map(|e| covered(*e, &ends, tolerance)).sum()).collect();
+    found.on_edges =
+        lines.iter().map(|line| edges(line).iter().map(|e| covered(*e, &ends, tolerance)).sum()).collect();
     found
 }
 

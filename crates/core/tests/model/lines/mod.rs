@@ -305,7 +305,8 @@ fn the_result_depends_on_mesh_and_lines_alone() {
     let expected = derived(&built, &lines);
     let mut mesh = built.mesh.clone();
     let all = LatticeRect { min: LatticePoint::new(0, 0), max: mesh.lattice().extent() };
-    let part = LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(all.max.x / 2, all.max.y / 3) };
+    let part =
+        LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(all.max.x / 2, all.max.y / 3) };
     let mut updater = Updater::new(Limits::default());
     for (area, fine) in [(all, None), (part, Some(part)), (all, Some(all))] {
         updater.add(area);
@@ -327,7 +328,8 @@ fn the_result_depends_on_mesh_and_lines_alone() {
     let on_one = pool.install(|| derived(&built, &lines));
     assert_eq!((on_one.patch(), on_one.line_fits()), (expected.patch(), expected.line_fits()));
 
-    let mut derivation = MeshDerivation::new(Arc::new(built.mesh.clone()), domain, None, Cleaning::NONE, false);
+    let mut derivation =
+        MeshDerivation::new(Arc::new(built.mesh.clone()), domain, None, Cleaning::NONE, false);
     while derivation.advance() == Progress::More {}
     let in_slices = derivation.take_derived().unwrap();
     assert_eq!((in_slices.patch(), in_slices.line_fits()), (expected.patch(), expected.line_fits()));
@@ -335,7 +337,7 @@ fn the_result_depends_on_mesh_and_lines_alone() {
 
 /// A line with a hundred thousand corners, far more than the mesh resolves.
 #[test]
-fn many_corners_take_little_time() {
+fn more_corners_than_the_mesh_resolves_are_listed() {
     let built = formula_mesh(&square(), 0.11, BoundaryTreatment::Report, "0.05");
     let count = 100_000;
     let corner = |k: usize| {
@@ -343,7 +345,10 @@ fn many_corners_take_little_time() {
         dvec2(0.5, 0.5) + (0.3 + 0.05 * (40.0 * angle).sin()) * DVec2::from_angle(angle)
     };
     let curve = Line { name: "curve".into(), points: (0..count).map(corner).collect(), closed: true };
-    let began = std::time::Instant::now();
-    check(&built, &[curve], LEAST_ANGLE, "curve");
-    assert!(began.elapsed().as_secs() < 30);
+    let derived = derived(&built, &[curve]);
+    let found = judge(&derived.extract(&built.mesh), &[], "curve");
+    assert!(found.smallest_angle >= LEAST_ANGLE, "{found:?}");
+    let fit = &derived.line_fits()[0];
+    assert!(fit.length_on_edges < 0.1 * fit.length && !fit.unresolved.is_empty(), "{fit:?}");
+    assert!(fit.unresolved.iter().all(|place| place.diameter.is_some_and(|d| d < 1e-3)), "{fit:?}");
 }
