@@ -116,8 +116,8 @@ impl Input {
                 .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
             (is_known && typed.h_risk.is_some() && !has_risk)
                 .then_some("--h-risk changes nothing without --risk or --risk-raster."),
-            (is_known && typed.boundary.is_some() && self.settings.domain.outline_file().is_none())
-                .then_some("--boundary changes nothing without --region or --land."),
+            (is_known && typed.boundary.is_some() && !self.settings.domain.has_outline())
+                .then_some("--boundary changes nothing without --region, --land or --inside."),
         ];
         unused.into_iter().flatten().map(str::to_owned).collect()
     }
@@ -198,8 +198,12 @@ impl Input {
         let cut = options.cut(own.domain.clone()).map(|domain| Settings { domain, ..own });
         let settings = cut.and_then(|settings| self.settings.override_settings(settings));
         let mut settings = settings.map_err(|fault| Failure::Usage(fault.to_string()))?;
-        let notes = self.settings.open_boundary_of(&mut settings, &Loading::for_document(&meter))?;
+        let loading = Loading::for_document(&meter);
+        let notes = self.settings.open_boundary_of(&mut settings, &loading)?;
         self.tell(&notes, terminal);
+        let (lines, notes) = self.settings.lines_for(&settings, &loading)?;
+        self.tell(&notes, terminal);
+        settings.lines = Arc::new(settings.lines.iter().cloned().chain(lines).collect());
         settings.transfer.checked()?;
         Ok((settings, document.paint().clone()))
     }

@@ -11,6 +11,7 @@ use super::depths::{
 use super::details::{
     LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary, SurfaceSummary,
 };
+use super::lines::LineSummary;
 use super::partition::PartitionSummary;
 use super::quality::QualitySummary;
 use super::sequence::SequenceMesh;
@@ -47,6 +48,9 @@ pub struct Summary {
     /// How well the nodes of the boundary lie on the outline, where they are moved there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outline_nodes: Option<OutlineNodes>,
+    /// How well the mesh fits the lines of the document.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lines: Vec<LineSummary>,
     /// The pieces of the boundary of which the mesh has edges.
     pub boundary: Option<Vec<PieceSummary>>,
     /// The pieces of the domain's boundary of which the mesh has no edge.
@@ -343,6 +347,7 @@ impl Summary {
                 _ => ground.mesh_area(extract),
             },
             outline_nodes: OutlineNodes::of(finished, extract),
+            lines: finished.derived.line_fits().iter().map(|fit| LineSummary::of(fit, finished)).collect(),
             outline: region.map(|region| Outline::of(finished, extract, &region, boundary)),
             boundary: boundary.map(PieceSummary::of_present),
             lost_pieces: boundary.map(LostPiece::all),
@@ -402,6 +407,9 @@ impl Summary {
         }
         if let Some(nodes) = &self.outline_nodes {
             text.insert_str(text.len() - 1, &nodes.for_people());
+        }
+        for line in &self.lines {
+            text.insert_str(text.len() - 1, &line.for_people());
         }
         if let Some(step) = &self.largest_time_step {
             text.insert_str(text.len() - 1, &step.for_people());

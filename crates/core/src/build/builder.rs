@@ -163,7 +163,7 @@ impl MeshBuilder {
     pub fn from_parts(spec: MeshSpec, parts: Parts) -> Self {
         let Parts { domain, field: given_field, samples: given_samples, spare } = parts;
         let step = match domain {
-            Some(domain) => BuildStep::Grid(domain.with_boundary(spec.boundary)),
+            Some(domain) => BuildStep::Grid(domain.with_boundary(spec.boundary).with_lines(&spec.lines)),
             None => BuildStep::Index(DomainOnLatticeBuilder::new(&spec.domain, spec.boundary, &spec.lattice)),
         };
         Self { spec, given_field, given_samples, spare, step: Some(step), capped: 0, scale: 1.0 }
@@ -228,7 +228,7 @@ impl MeshBuilder {
         let next = match step {
             BuildStep::Index(mut index) => match index.advance(budget) {
                 Progress::More => BuildStep::Index(index),
-                Progress::Done => BuildStep::Grid(index.finish()),
+                Progress::Done => BuildStep::Grid(index.finish().with_lines(&self.spec.lines)),
             },
             BuildStep::Grid(domain) => self.begin_field(domain)?,
             BuildStep::Check { domain, mesh, field, mut check } => match check.advance(&field, budget)? {

@@ -1,4 +1,6 @@
-use crate::domain::{BoundaryTreatment, Domain};
+use std::sync::Arc;
+
+use crate::domain::{BoundaryTreatment, Domain, Line};
 use crate::field::RefinementRule;
 use crate::geometry::Lattice;
 use crate::layers::SizeFieldSpec;
@@ -11,6 +13,8 @@ pub struct MeshSpec {
     pub domain: Domain,
     /// The treatment of the boundary of a domain of polygons.
     pub boundary: BoundaryTreatment,
+    /// Lines along which the [derived mesh](crate::outline::DerivedMesh) has edges.
+    pub lines: Arc<Vec<Line>>,
     /// The coarse grid and its lattice, over the bounds of the domain.
     pub lattice: Lattice,
     /// h̄, the target diameter.

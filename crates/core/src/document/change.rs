@@ -39,6 +39,7 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
+            lines: _,
             pins: _,
             paths: _,
             // This one decides what is derived from the mesh.
@@ -60,6 +61,7 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
+            lines: _,
             pins: _,
             paths: _,
             cleaning: _,

@@ -52,6 +52,8 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
     let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let pins = (Arc::as_ptr(&settings.pins).addr(), size_of_val(&settings.pins[..]));
+    let corners = settings.lines.iter().map(|line| size_of_val(line) + size_of_val(&line.points[..]));
+    let lines = (Arc::as_ptr(&settings.lines).addr(), corners.sum());
     let paths = (Arc::as_ptr(&settings.paths).addr(), settings.paths.bytes());
     let layers = settings.layers.iter().flat_map(Layer::shared_data);
     let background = settings
@@ -68,7 +70,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
         .chain(domain)
         .chain(cost)
         .chain(outline)
-        .chain([marks, pins, paths])
+        .chain([marks, lines, pins, paths])
         .chain(kept_out)
         .chain(background)
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::layer_titles::layers_title;
 use super::{Background, PathPlan, Settings};
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, Line};
 use crate::field::RefinementRule;
 use crate::geometry::Rect;
 use crate::layers::Layer;
@@ -58,6 +58,8 @@ pub enum Setting {
     Cleaning(Cleaning),
     /// Names and types of pieces of the boundary, and where it is split.
     BoundaryMarks(BoundaryMarks),
+    /// Lines along which the derived mesh has edges.
+    Lines(Arc<Vec<Line>>),
     /// Points whose triangles and values are followed, in world units.
     Pins(Arc<Vec<DVec2>>),
     /// The waypoints and the cost of paths.
@@ -98,6 +100,7 @@ impl Setting {
             Self::Boundary(_) => "boundary",
             Self::Cleaning(_) => "cleaning",
             Self::BoundaryMarks(_) => "boundary pieces",
+            Self::Lines(_) => "lines",
             Self::Pins(_) => "pins",
             Self::Paths(_) => "path",
             Self::LengthUnit(_) => "unit",
@@ -156,6 +159,7 @@ impl Setting {
             Self::Boundary(boundary) => settings.boundary = boundary,
             Self::Cleaning(cleaning) => settings.cleaning = cleaning,
             Self::BoundaryMarks(marks) => settings.boundary_marks = Arc::new(marks),
+            Self::Lines(lines) => settings.lines = lines,
             Self::Pins(pins) => settings.pins = pins,
             Self::Paths(paths) => settings.paths = paths,
             Self::LengthUnit(unit) => settings.unit = unit,

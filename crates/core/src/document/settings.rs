@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::{Background, PathPlan, layers};
 use crate::build::MeshSpec;
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, Region};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, Line, Region};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{
@@ -32,6 +32,8 @@ pub struct Settings {
     pub cleaning: Cleaning,
     /// Names, types and splits of the boundary. The mesh depends on them through layers that follow pieces.
     pub boundary_marks: Arc<BoundaryMarks>,
+    /// Lines along which the derived mesh has edges. The mesh itself does not depend on them.
+    pub lines: Arc<Vec<Line>>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
     /// The waypoints and the cost of paths. They do not change the mesh.
@@ -347,6 +349,7 @@ impl Settings {
         MeshSpec {
             domain: self.domain.clone(),
             boundary: self.boundary,
+            lines: self.lines.clone(),
             lattice,
             field,
             rule: self.rule,
@@ -363,6 +366,12 @@ impl Settings {
     /// Returns whether the mesh is fitted to an outline, where that can be followed.
     pub fn is_fitted(&self) -> bool {
         !self.domain.is_whole() && self.boundary != BoundaryTreatment::Report
+    }
+
+    /// Returns whether files get another mesh than the one of right-angled triangles: where that meets an outline,
+    /// or has edges along lines.
+    pub fn is_derived(&self) -> bool {
+        !self.lines.is_empty() || self.outline().is_some()
     }
 
     /// Returns the polygons that the mesh meets, as [`Domain::outline`] does.
@@ -423,6 +432,7 @@ impl Default for Settings {
             boundary: BoundaryTreatment::default_for(1.0 / 24.0),
             cleaning: Cleaning::FOR_SOLVERS,
             boundary_marks: Arc::default(),
+            lines: Arc::default(),
             pins: Arc::default(),
             paths: Arc::default(),
             transfer: Transfer::between(0.0024, 0.2),

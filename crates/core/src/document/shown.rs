@@ -200,9 +200,17 @@ impl Shown {
     /// Takes over settings that the mesh obeys. Updates that a former budget stopped go on.
     pub(super) fn adopt(&mut self, wanted: &Settings) {
         if self.settings != *wanted {
+            self.take_lines(wanted);
             self.settings = wanted.clone();
             self.domain = self.domain.with_boundary(wanted.boundary);
             self.updater.set_limits(wanted.limits());
+        }
+    }
+
+    /// Takes over lines, which only the derived mesh depends on.
+    fn take_lines(&mut self, wanted: &Settings) {
+        if wanted.lines != self.settings.lines {
+            self.domain = self.domain.clone().with_lines(&wanted.lines);
         }
     }
 
@@ -242,9 +250,12 @@ impl Shown {
         }
         changes.into_iter().for_each(|area| self.add_area(area));
         match outline {
-            None => self.domain = self.domain.with_boundary(settings.boundary),
+            None => {
+                self.take_lines(&settings);
+                self.domain = self.domain.with_boundary(settings.boundary);
+            }
             Some((domain, areas)) => {
-                self.domain = domain;
+                self.domain = domain.with_lines(&settings.lines);
                 let lattice = self.mesh.lattice();
                 for area in areas.iter().filter_map(|area| lattice.rect_around(area)) {
                     // Corners are moved to the nearest lattice point: by a step at most.

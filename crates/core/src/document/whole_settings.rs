@@ -42,6 +42,7 @@ impl Document {
             background: _,
             domain: _,
             boundary_marks: _,
+            lines: _,
             pins: _,
             paths: _,
             layers: _,

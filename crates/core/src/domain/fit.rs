@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::region_builder::RegionOnLatticeBuilder;
 use super::zero_line::{ZeroLine, ZeroLineTracer};
-use super::{Domain, DomainShape, FormulaShape, LinesOnLattice, RegionOnLattice};
+use super::{Domain, DomainShape, FormulaShape, Line, LinesOnLattice, RegionOnLattice};
 use crate::earth::EdgeLengths;
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
@@ -201,12 +201,12 @@ impl DomainOnLattice {
         Self { fitted, on_outline, ..self.clone() }
     }
 
-    /// Returns this domain with lines in place of former ones, which are on the same lattice. A mesh is not
-    /// refined for them; what is derived from it has edges along them
-    /// ([`DerivedMesh`](crate::outline::DerivedMesh)).
-    pub fn with_lines(&self, lines: LinesOnLattice) -> Self {
-        let lines = (!lines.is_empty()).then(|| Arc::new(lines));
-        Self { lines, ..self.clone() }
+    /// Returns this domain with lines in place of former ones. A mesh is not refined for them; what is derived
+    /// from it has edges along them ([`DerivedMesh`](crate::outline::DerivedMesh)).
+    #[must_use]
+    pub fn with_lines(self, lines: &[Line]) -> Self {
+        let lines = (!lines.is_empty()).then(|| Arc::new(LinesOnLattice::of(lines, &self.lattice)));
+        Self { lines, ..self }
     }
 
     /// Returns the lines along which a derived mesh has edges.

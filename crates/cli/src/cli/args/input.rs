@@ -53,6 +53,13 @@ pub struct InputArguments {
     #[command(flatten)]
     pub earth: EarthArguments,
 
+    /// Lines along which the mesh has edges, as a breakwater or a thalweg: a GeoJSON file, shapefile (.shp) or
+    /// GeoPackage (.gpkg) with lines or polygons; may be repeated
+    ///
+    /// Where triangles are too coarse for them, --json says where, and which diameter would do.
+    #[arg(long, value_name = "FILE")]
+    pub lines: Vec<PathBuf>,
+
     /// How the mesh meets the outline of a region, or the line where the formula of --inside becomes 0
     ///
     /// [default: outline]

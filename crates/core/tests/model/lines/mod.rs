@@ -236,7 +236,7 @@ fn lines_in_a_domain_by_formula_end_at_its_stairs() {
         let name = format!("seed {seed}");
         check(&built, &lines, 0.0, &name);
         check_order(&built, &lines, random, &name);
-        let on_lattice = built.domain.with_lines(LinesOnLattice::of(&lines, built.mesh.lattice()));
+        let on_lattice = built.domain.clone().with_lines(&lines);
         let cleaned = DerivedMesh::new(&built.mesh, &on_lattice, None, &Cleaning::FOR_SOLVERS);
         let extract = cleaned.extract(&built.mesh);
         assert_eq!(cleaned.violations(&extract), [], "{name}");
@@ -278,7 +278,7 @@ fn no_edge_is_longer_than_its_target_beside_lines() {
     let (mut any, mut triangles, mut sums) = (0.0f64, [0; 2], [0.0; 2]);
     for seed in seeds(20) {
         let lines = lines(&mut Rng::with_seed(seed));
-        let domain = built.domain.with_lines(LinesOnLattice::of(&lines, built.mesh.lattice()));
+        let domain = built.domain.clone().with_lines(&lines);
         let kept = [built.edge_targets(&paint), None].map(|targets| {
             let derived = DerivedMesh::new(&built.mesh, &domain, targets, &Cleaning::NONE);
             let on_edges: f64 = derived.line_fits().iter().map(|fit| fit.length_on_edges).sum();
@@ -319,7 +319,7 @@ fn the_result_depends_on_mesh_and_lines_alone() {
     }
     assert_eq!(mesh.fingerprint(), built.mesh.fingerprint());
     assert!(mesh.raw_nodes() != built.mesh.raw_nodes());
-    let domain = built.domain.with_lines(LinesOnLattice::of(&lines, built.mesh.lattice()));
+    let domain = built.domain.clone().with_lines(&lines);
     let found = DerivedMesh::new(&mesh, &domain, None, &Cleaning::NONE);
     assert!(shape(&found.extract(&mesh)) == shape(&expected.extract(&built.mesh)));
     assert_eq!(found.line_fits(), expected.line_fits());

@@ -18,7 +18,7 @@ use super::saved_cut::SavedCut;
 use super::stored_layers::{StoredLayer, check_raster_sizes};
 use super::{FORMAT, VERSION};
 use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, OutlineOnEarth};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Line, OutlineOnEarth};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::raster::is_raster_size;
@@ -59,6 +59,8 @@ pub(super) struct Saved {
     /// The part with the pins, where there are many.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pins_part: Option<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    lines: Vec<StoredLine>,
     #[serde(default, skip_serializing_if = "StoredPaths::is_empty")]
     paths: StoredPaths,
     spacing: f64,
@@ -109,6 +111,28 @@ enum SavedBoundary {
     Fitted(f64),
     #[serde(rename = "on_outline_with_diameter")]
     OnOutline(f64),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StoredLine {
+    name: String,
+    /// x and y of each corner.
+    points: Vec<[f64; 2]>,
+    #[serde(default)]
+    closed: bool,
+}
+
+impl StoredLine {
+    fn of(Line { name, points, closed }: &Line) -> Self {
+        let points = points.iter().map(DVec2::to_array).collect();
+        Self { name: name.clone(), points, closed: *closed }
+    }
+
+    fn load(self) -> Line {
+        let points = self.points.into_iter().map(DVec2::from_array).collect();
+        Line { name: self.name, points, closed: self.closed }
+    }
 }
 
 #[derive(Default, Serialize, Deserialize)]
@@ -246,6 +270,7 @@ impl Saved {
                 None => settings.pins.iter().map(DVec2::to_array).collect(),
             },
             pins_part,
+            lines: settings.lines.iter().map(StoredLine::of).collect(),
             paths: StoredPaths::of(&settings.paths, names),
             spacing: settings.spacing,
             transfer: SavedTransfer::of(settings.transfer),
@@ -330,6 +355,7 @@ impl Saved {
                 Some(part) => parts.pins(&part)?,
                 None => Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
             },
+            lines: Arc::new(self.lines.into_iter().map(StoredLine::load).collect()),
             paths: self.paths.load(parts)?,
             spacing: self.spacing,
             transfer: self.transfer.into(),

@@ -24,14 +24,14 @@ use super::notes::{
 };
 use super::opening::{self, OpenData};
 use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
-use meshbrush_core::domain::{BoundaryMarks, Domain, OutlineOnEarth, Polygon};
+use meshbrush_core::domain::{BoundaryMarks, Domain, Line, OutlineOnEarth, Polygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, Shapes, Threats};
+use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, ShapeList, Shapes, Threats};
 use meshbrush_core::raster::{RasterValues, Resampling};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
-use meshbrush_mesh::text::{LengthUnit, abridged};
+use meshbrush_mesh::text::{Grouped, LengthUnit, abridged};
 
 /// Why settings cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -158,6 +158,20 @@ impl SavedSettings {
         let mut files = Files::for_document(settings, None, loading);
         files.file_coordinates = settings.coordinates_of_outlines();
         self.open_boundary(settings, &mut files)
+    }
+
+    /// Reads the lines for a document. Returns them with notes for a person.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be read or has no lines.
+    pub fn lines_for(
+        &self,
+        settings: &Settings,
+        loading: &Loading,
+    ) -> Result<(Vec<Line>, Vec<String>), LoadError> {
+        let mut files = Files::for_document(settings, None, loading);
+        let lines = self.read_lines(&mut files)?;
+        Ok((lines, files.notes))
     }
 
     /// Opens the boundary where `open` says. Returns notes for a person.
@@ -375,6 +389,24 @@ impl Storage for Files<'_> {
             false => shape_format::read_polygons(file, plane.as_ref(), loading.meter)?,
         };
         Ok(geojson::without_names(polygons))
+    }
+
+    fn lines(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
+        let Self { loading, plane, .. } = self;
+        let shapes = loading.shapes(file, || shape_format::read_own_shapes(file, None, loading.meter))?;
+        let ShapeList { points, lines, polygons } =
+            shape_format::placed_shapes(shapes, plane.as_ref(), file)?.shapes;
+        if lines.is_empty() && polygons.is_empty() {
+            let problem =
+                "has no lines and no polygons. Name a file with lines along which the mesh shall have edges.";
+            return Err(LoadError::Unsuited(format!("{} {problem}", file.display())));
+        }
+        if !points.is_empty() {
+            let count = Grouped(points.len());
+            let note = format!("{}: its {count} points are no lines and are left out.", file.display());
+            LayerData::note(self, note);
+        }
+        Ok(ShapeList { points, lines, polygons })
     }
 }
 

@@ -36,6 +36,9 @@ impl<L> SavedSettings<L> {
         for (index, region) in self.keep_out.iter().enumerate() {
             region.check().map_err(|fault| fault.within(index).within("keep_out"))?;
         }
+        for (index, line) in self.line.iter().enumerate() {
+            line.check().map_err(|fault| fault.within(index).within("line"))?;
+        }
         self.pins.points().map_err(in_table("pins"))?;
         Ok(())
     }
@@ -92,13 +95,14 @@ impl SavedSettings {
         let of_layers =
             self.layer.iter().flat_map(|layer| [layer.keys.file(), layer.shared.mask_file.as_deref()]);
         let of_paths = self.keep_out.iter().map(|region| region.file.as_deref());
+        let of_lines = self.line.iter().map(|line| line.file.as_deref());
         let of_openings = self.domain.open.0.iter().map(|entry| match entry {
             SavedOpen::Polygons(file) => Some(file.as_path()),
             _ => None,
         });
         let of_domain =
             [self.domain.region.as_deref(), self.domain.land.as_deref()].into_iter().chain(of_openings);
-        of_layers.chain(of_domain).chain(of_paths).flatten()
+        of_layers.chain(of_domain).chain(of_paths).chain(of_lines).flatten()
     }
 
     /// Puts the path of each file in place of its name.
@@ -128,6 +132,11 @@ impl SavedSettings {
         for (index, region) in self.keep_out.iter_mut().enumerate() {
             region.name.get_or_insert_with(|| region_name(region.file.as_deref()));
             place("file", &mut region.file).map_err(|fault| fault.within(index).within("keep_out"))?;
+        }
+        for (index, line) in self.line.iter_mut().enumerate() {
+            let stem = line.file.as_deref().and_then(Path::file_stem);
+            line.name = line.name.take().or(stem.map(|stem| stem.to_string_lossy().into_owned()));
+            place("file", &mut line.file).map_err(|fault| fault.within(index).within("line"))?;
         }
         for (index, output) in self.output.iter_mut().enumerate() {
             output.place_grids(find).map_err(|fault| fault.within(index).within("output"))?;

@@ -9,11 +9,11 @@ use crate::io::layers::{SavedLayer, TextError};
 use glam::DVec2;
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryTreatment, DepthContour, Domain, DomainShape, Polygon,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, DepthContour, Domain, DomainShape, Line, Polygon,
 };
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerId, PositiveDepth, Surface};
+use meshbrush_core::layers::{Layer, LayerId, PositiveDepth, ShapeList, Surface};
 use meshbrush_core::surface::domain_on_samples;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, CoarseError, bisection_edge_length};
@@ -121,6 +121,12 @@ pub trait Storage {
     /// # Errors
     /// Fails when they cannot be read.
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, Self::Error>;
+
+    /// Returns the lines and polygons of a file of lines.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read, and when there is none.
+    fn lines(&mut self, file: &Path) -> Result<ShapeList, Self::Error>;
 }
 
 impl<L> SavedSettings<L> {
@@ -155,6 +161,7 @@ impl<L> SavedSettings<L> {
             Some((bounds, spacing)) => (Domain { bounds, ..domain }, spacing),
             None => (domain, spacing),
         };
+        let lines = self.read_lines(storage)?;
         let keep_out = self.keep_out.iter().map(|region| region.load(|file| storage.polygons(file)));
         let places = |typed: Vec<DVec2>| typed.into_iter().map(|at| domain.place_of(at)).collect::<Vec<_>>();
         let pins = places(self.pins.points()?);
@@ -173,6 +180,7 @@ impl<L> SavedSettings<L> {
             boundary: BoundaryTreatment::default_for(domain.longest_on_earth(spacing)),
             domain,
             boundary_marks: Arc::new(marks),
+            lines: Arc::new(lines),
             pins: Arc::new(pins),
             paths: Arc::new(paths),
             spacing,
@@ -184,6 +192,19 @@ impl<L> SavedSettings<L> {
             ..Settings::default()
         };
         Ok(self.override_settings(settings)?)
+    }
+
+    /// Reads the lines along which the mesh has edges.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read, or a value cannot be used.
+    pub(in crate::io) fn read_lines<S: Storage>(&self, storage: &mut S) -> Result<Vec<Line>, S::Error> {
+        let mut lines = Vec::new();
+        for (index, line) in self.line.iter().enumerate() {
+            line.check().map_err(|fault| fault.within(index).within("line"))?;
+            lines.extend(line.load(|file| storage.lines(file))?);
+        }
+        Ok(lines)
     }
 
     /// Returns the bounds of a domain and a spacing that suit the samples of a surface, where the text leaves

@@ -7,6 +7,7 @@
 
 mod check;
 mod cut_off;
+mod lines;
 mod load;
 mod of_settings;
 mod opening;
@@ -19,8 +20,8 @@ pub use cut_off::{SavedRing, written_ring};
 pub use load::{LoadingDefaults, ReadRegion, RegionCoordinates, Storage};
 pub use opening::{SavedOpen, SavedOpenings};
 pub use tables::{
-    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
-    SavedQuantityGrid, SavedSettings, SavedTreatment,
+    SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedOutput, SavedParts, SavedPaths,
+    SavedPins, SavedQuantityGrid, SavedSettings, SavedTreatment,
 };
 pub use words::{
     SavedBoundaryType, SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks, word_of,

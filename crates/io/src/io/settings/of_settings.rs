@@ -1,8 +1,8 @@
 use glam::DVec2;
 
 use super::{
-    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedPaths, SavedPins, SavedSettings, SavedTreatment,
-    SavedUnit, saved_marks,
+    SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedPaths, SavedPins, SavedSettings,
+    SavedTreatment, SavedUnit, saved_marks,
 };
 use crate::io::lengths::WrittenLengths;
 use meshbrush_core::document::Settings;
@@ -41,6 +41,7 @@ impl<L> SavedSettings<L> {
             layer: layers,
             paths: SavedPaths::of(&settings.paths),
             keep_out,
+            line: settings.lines.iter().map(SavedLine::of).collect(),
             pins: SavedPins { at: settings.pins.iter().map(DVec2::to_array).collect() },
             output: Vec::new(),
             lengths: WrittenLengths::default(),

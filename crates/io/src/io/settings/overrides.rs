@@ -1,19 +1,21 @@
 //! Values in place of others: options beside a recipe or a project.
 
-use super::{SavedDomain, SavedLimits, SavedMesh, SavedSettings, SavedTreatment};
+use super::{SavedDomain, SavedLimits, SavedLine, SavedMesh, SavedSettings, SavedTreatment};
 use crate::io::KeyFault;
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::BoundaryTreatment;
 use meshbrush_core::field::Transfer;
 
 impl<L> SavedSettings<L> {
-    /// Returns the settings with the values of `options` in place of their own. Domain, layers, paths and
-    /// pins are their own: no option goes with them.
+    /// Returns the settings with the values of `options` in place of their own, and with their lines besides
+    /// their own. Domain, layers, paths and pins are their own: no option goes with them.
     pub fn overridden_by<O>(self, options: &SavedSettings<O>) -> Self {
         let SavedDomain { open, boundary, boundary_diameter, parts, keep_pinches, .. } = &options.domain;
         let SavedMesh { spacing, rule, max_triangles, max_level, max_memory } = &options.mesh;
         let SavedLimits { h_min, h_risk, h_max, shape, gradation } = options.limits;
+        let line: Vec<SavedLine> = self.line.into_iter().chain(options.line.iter().cloned()).collect();
         Self {
+            line,
             domain: SavedDomain {
                 open: if open.is_empty() { self.domain.open } else { open.clone() },
                 boundary: boundary.or(self.domain.boundary),

@@ -28,6 +28,9 @@ pub struct SavedSettings<L = SavedLayer> {
     /// Regions that paths stay out of.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keep_out: Vec<SavedKeepOut>,
+    /// Lines along which the mesh has edges.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub line: Vec<SavedLine>,
     /// Points whose triangles and values the window follows.
     #[serde(skip_serializing_if = "is_default")]
     pub pins: SavedPins,
@@ -48,6 +51,7 @@ impl<L> Default for SavedSettings<L> {
             layer: Vec::new(),
             paths: SavedPaths::default(),
             keep_out: Vec::new(),
+            line: Vec::new(),
             pins: SavedPins::default(),
             output: Vec::new(),
             lengths: WrittenLengths::default(),
@@ -61,9 +65,9 @@ impl<L> SavedSettings<L> {
         self,
         of_layers: impl FnOnce(Vec<L>) -> Result<Vec<M>, E>,
     ) -> Result<SavedSettings<M>, E> {
-        let Self { domain, mesh, limits, layer, paths, keep_out, pins, output, lengths } = self;
+        let Self { domain, mesh, limits, layer, paths, keep_out, line, pins, output, lengths } = self;
         let layer = of_layers(layer)?;
-        Ok(SavedSettings { domain, mesh, limits, layer, paths, keep_out, pins, output, lengths })
+        Ok(SavedSettings { domain, mesh, limits, layer, paths, keep_out, line, pins, output, lengths })
     }
 }
 
@@ -233,6 +237,24 @@ pub struct SavedKeepOut {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub polygons: Option<Vec<SavedPolygon>>,
     /// A file with the polygons, in their place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+}
+
+/// `[[line]]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedLine {
+    /// The name of the line, also in files of the mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// x and y of each corner, in world units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<[f64; 2]>>,
+    /// Whether the last corner is joined to the first one.
+    #[serde(skip_serializing_if = "is_no")]
+    pub closed: bool,
+    /// A file with lines or polygons, in their place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
 }

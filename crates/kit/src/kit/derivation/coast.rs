@@ -141,6 +141,8 @@ impl Coast {
 
 /// Returns whether the outline is that of the follower's domain.
 fn has_domain_of(outline: &OutlineFollower, follower: &Follower) -> bool {
-    let regions = [outline.domain(), follower.domain()].map(|domain| domain.region_on_outline());
-    matches!(regions, [Some(a), Some(b)] if std::ptr::eq(a, b))
+    let domains = [outline.domain(), follower.domain()];
+    let regions = domains.map(|domain| domain.region_on_outline());
+    domains.iter().all(|domain| domain.lines().is_none())
+        && matches!(regions, [Some(a), Some(b)] if std::ptr::eq(a, b))
 }

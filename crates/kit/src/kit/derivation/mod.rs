@@ -22,9 +22,9 @@ use coast::{Coast, RemovedTriangles};
 
 use super::jobs::{Job, JobKind, Jobs, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
-use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Region};
+use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Line, Region};
 use meshbrush_core::layers::PaintLayers;
-use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFit, OutlineFollower};
+use meshbrush_core::outline::{DerivedMesh, LineFit, MeshDerivation, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
     Changes, Cleaning, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
     TriangleId,
@@ -48,7 +48,9 @@ pub struct DerivationKey {
     revision: u64,
     on_outline: bool,
     cleaning: Cleaning,
-    region: Arc<Region>,
+    /// The outline that the mesh meets, if there is one.
+    region: Option<Arc<Region>>,
+    lines: Arc<Vec<Line>>,
 }
 
 impl DerivationKey {
@@ -56,11 +58,12 @@ impl DerivationKey {
     /// exported.
     fn of(follower: &Follower) -> Option<Self> {
         let settings = follower.settings();
-        Some(Self {
+        settings.is_derived().then(|| Self {
             revision: follower.revision(),
             on_outline: follower.domain().region_on_outline().is_some(),
             cleaning: settings.derived_cleaning(),
-            region: settings.outline()?,
+            region: settings.outline(),
+            lines: settings.lines.clone(),
         })
     }
 }
@@ -79,6 +82,8 @@ pub struct Derived {
     pub removed: Removed,
     /// How well the boundary lies on the outline, where nodes are moved there.
     pub outline_fit: Option<OutlineFit>,
+    /// How well the mesh fits each line.
+    pub line_fits: Vec<LineFit>,
     /// The comparison with the outline, once it is made.
     pub quality: Option<FitQuality>,
 }
@@ -327,7 +332,8 @@ impl Derivation {
     }
 
     fn start(&mut self, key: DerivationKey, follower: &Follower, paint: &PaintLayers, jobs: &Jobs) {
-        let follows = !self.coast.is_of(follower);
+        // What follows the outline knows nothing of lines.
+        let follows = key.lines.is_empty() && !self.coast.is_of(follower);
         // Dropping a large one takes longer than a frame.
         let useless = self.coast.take_useless();
         let settings = follower.settings();
@@ -361,7 +367,7 @@ enum DerivationStep {
     Extract(MeshDerivation, DerivedMesh),
     Send(MeshDerivation, DerivedMesh, Arc<Extract<'static>>),
     Follow(MeshDerivation, Arc<Extract<'static>>),
-    Compare(FitComparison),
+    Compare(FitComparison, Arc<Region>),
     Done,
 }
 
@@ -391,15 +397,15 @@ impl DerivationWork {
                 }
                 match progress {
                     Progress::More => DerivationStep::Follow(derivation, extract),
-                    Progress::Done => {
-                        let ground = self.in_world.ground();
-                        DerivationStep::Compare(FitComparison::new(&extract, &self.key.region, &ground))
-                    }
+                    Progress::Done => self.key.region.clone().map_or(DerivationStep::Done, |region| {
+                        let comparison = FitComparison::new(&extract, &region, &self.in_world.ground());
+                        DerivationStep::Compare(comparison, region)
+                    }),
                 }
             }
-            DerivationStep::Compare(mut comparison) => {
-                match comparison.advance(&self.key.region, &self.in_world.ground()) {
-                    None => DerivationStep::Compare(comparison),
+            DerivationStep::Compare(mut comparison, region) => {
+                match comparison.advance(&region, &self.in_world.ground()) {
+                    None => DerivationStep::Compare(comparison, region),
                     Some(quality) => {
                         output.send(DerivationResult::Quality(quality));
                         DerivationStep::Done
@@ -428,6 +434,7 @@ impl DerivationWork {
             topology: extract.topology(),
             removed: derived_mesh.removed().clone(),
             outline_fit: derived_mesh.fit(),
+            line_fits: derived_mesh.line_fits().to_vec(),
             quality: None,
             extract: extract.clone(),
         };
@@ -446,8 +453,7 @@ pub struct MeasuredMesh {
 impl MeasuredMesh {
     /// Returns whether the mesh is as the document asks for, and derived where it has to be.
     pub fn is_settled(document: &Document, follower: &Follower, derivation: &Derivation) -> bool {
-        let is_fitted = follower.settings().outline().is_some();
-        let is_derived = !is_fitted || derivation.current(follower).is_some();
+        let is_derived = !follower.settings().is_derived() || derivation.current(follower).is_some();
         follower.stage().is_settled() && !document.is_in_gesture() && is_derived
     }
 

@@ -37,7 +37,7 @@ impl Session {
 
     /// Returns whether ids of [`Self::view`] are the numbers in files.
     pub fn has_file_numbers(&self) -> bool {
-        self.derived().is_some() || self.live.follower.settings().outline().is_none()
+        self.derived().is_some() || !self.live.follower.settings().is_derived()
     }
 
     /// Returns how many triangles the domain has.
