@@ -281,17 +281,15 @@ impl<'a> Island<'a> {
     pub(super) fn unresolved(&self) -> Vec<(u32, [Stop; 2])> {
         let mut found = Vec::new();
         for (cut, left_out) in self.cuts.iter().zip(&self.left_out) {
-            let mut from = None;
-            for n in 0..=cut.inside.len() {
-                let is_out = n < cut.inside.len() && cut.inside[n] && left_out[n];
-                match (is_out, from) {
-                    (true, None) => from = Some(n),
-                    (false, Some(first)) => {
-                        found.push((cut.segment, [cut.stops[first], cut.stops[n]]));
-                        from = None;
-                    }
-                    _ => {}
+            let is_out: Vec<bool> =
+                cut.inside.iter().zip(left_out).map(|(&inside, &left_out)| inside && left_out).collect();
+            let mut first = 0;
+            for run in is_out.chunk_by(|a, b| a == b) {
+                let last = first + run.len();
+                if run[0] {
+                    found.push((cut.segment, [cut.stops[first], cut.stops[last]]));
                 }
+                first = last;
             }
         }
         found

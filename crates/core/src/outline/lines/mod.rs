@@ -13,6 +13,10 @@
 //!
 //! Lines that meet at less than 18.4° make angles of at least 0.8 times theirs.
 //!
+//! [`OutlineFollower`](super::OutlineFollower) knows nothing of lines: after an edit, they are fitted anew to
+//! the mesh that it derives ([`DerivedMesh::of_follower`](super::DerivedMesh::of_follower)). What is done at
+//! a place of a line may depend on all of its island.
+//!
 //! Everything is decided by places on the lattice, in an order of places: the result does not depend on the
 //! order and directions of the lines, on the order of the mesh's entries, or on the number of threads. Each
 //! connected set of triangles around lines is an island; all threads work on different islands.

@@ -18,12 +18,10 @@ impl LocalMesh {
             .filter(|&&v| v != NONE)
             .for_each(|&v| used[v as usize] = true);
         let mut ids = self.ids.clone();
-        for v in self.ids.len()..self.points.len() {
+        for (&at, &is_used) in self.points.iter().zip(&used).skip(self.ids.len()) {
             // The number of one without triangles is never read.
             ids.push(NodeId::from_index(whole.points.len() + to.added.len()));
-            if used[v] {
-                to.added.push(self.points[v]);
-            }
+            to.added.extend(is_used.then_some(at));
         }
         let is_moved = |v: u32| start.points.get(v as usize).is_some_and(|&at| at != self.points[v as usize]);
         let changed = (0..self.ids.len()).filter(|&v| used[v] && is_moved(v as u32));
