@@ -88,7 +88,7 @@ impl Replaced {
             self.gone.iter().map(|t| (t.owner, sorted(t.corners))).collect();
         gone.sort_unstable();
         self.pieces.sort_by_key(|t| t.owner);
-        let mut owners: Vec<TriangleId> = self.gone.iter().map(|t| t.owner).collect();
+        let mut owners: Vec<TriangleId> = self.gone.iter().chain(&self.pieces).map(|t| t.owner).collect();
         owners.extend(former.changed.iter().map(|(id, _)| *id));
         owners.sort_unstable();
         owners.dedup();

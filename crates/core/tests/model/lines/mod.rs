@@ -236,6 +236,9 @@ fn lines_in_a_domain_by_formula_end_at_its_stairs() {
         let lines = if random.bool() { lines(random) } else { hostile_lines(random) };
         let name = format!("seed {seed}");
         check(&built, &lines, 0.0, &name);
+        let extract = derived(&built, &lines).extract(&built.mesh).into_owned();
+        let area = built.mesh.extract().area();
+        assert!((judge(&extract, &lines, &name).area - area).abs() < 1e-9, "{name}: another area");
         check_order(&built, &lines, random, &name);
         let on_lattice = built.domain.clone().with_lines(&lines);
         let cleaned = DerivedMesh::new(&built.mesh, &on_lattice, None, &Cleaning::FOR_SOLVERS);
