@@ -35,6 +35,7 @@ fn built(level: u32, limits: Limits) -> BuiltMesh {
         lattice: Lattice::covering(domain.bounds, 1.0, 1_000_000).expect("a square has a grid"),
         domain,
         boundary: BoundaryTreatment::default_for(1.0),
+        lines: Default::default(),
         field,
         rule: RefinementRule::Area,
         cleaning: Cleaning::NONE,

@@ -30,9 +30,9 @@ pub use meshbrush_core::build::{
 #[doc(inline)]
 pub use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutFrame,
-    CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, FormulaShape,
-    MOST_CORNERS, MeshBoundary, NamedPolygon, OutlineOnEarth, PieceChoice, PieceFigures, PieceRun,
-    PixelLengths, Polygon, Region, RegionError, RegionOnLattice, Ring, ZeroLineError,
+    CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, FormulaShape, Line,
+    LinesOnLattice, MOST_CORNERS, MeshBoundary, NamedPolygon, OutlineOnEarth, PieceChoice, PieceFigures,
+    PieceRun, PixelLengths, Polygon, Region, RegionError, RegionOnLattice, Ring, ZeroLineError,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;
@@ -110,7 +110,8 @@ pub use meshbrush_core::earth::{
 };
 #[doc(inline)]
 pub use meshbrush_core::outline::{
-    DerivedMesh, DerivedViolation, EdgeTargets, OutlineFit, OutlineFollower, SharedTargets,
+    DerivedMesh, DerivedViolation, EdgeTargets, LineEdge, LineEdges, LineFit, LineProblem, OutlineFit,
+    OutlineFollower, SharedTargets, UnresolvedPlace,
 };
 #[doc(inline)]
 pub use meshbrush_io::io::{

@@ -12,6 +12,7 @@ mod folder;
 mod hostile;
 mod layer_files;
 mod lengths;
+mod lines;
 mod located;
 mod memory;
 mod one_program;

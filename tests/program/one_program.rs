@@ -7,7 +7,7 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape, PieceChoice,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape, Line, PieceChoice,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
@@ -295,7 +295,13 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
     };
     let most_pins = [4, 60][random.usize(..2)];
     let pins = random.usize(..most_pins);
+    let lines = (0..random.usize(..3)).map(|n| Line {
+        name: format!("line {n}"),
+        points: (0..random.usize(2..5)).map(|_| point(random)).collect(),
+        closed: random.bool(),
+    });
     let settings = Settings {
+        lines: Arc::new(lines.collect()),
         pins: Arc::new((0..pins).map(|_| point(random)).collect()),
         paths: Arc::new(paths(random)),
         boundary,
@@ -415,6 +421,7 @@ fn window_project_recipe_and_opened_recipe_have_one_mesh() {
         let (of_recipe, of_project) = (opened.settings(), &project.settings);
         assert_eq!(of_recipe.paths, of_project.paths, "paths, seed {seed}");
         assert_eq!(of_recipe.pins, of_project.pins, "pins, seed {seed}");
+        assert_eq!(of_recipe.lines, of_project.lines, "lines, seed {seed}");
         assert_eq!(of_recipe.boundary_marks, of_project.boundary_marks, "pieces, seed {seed}");
         assert_eq!(in_window(&mut opened), expected, "opened recipe, seed {seed}");
     }

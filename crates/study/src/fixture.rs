@@ -27,6 +27,7 @@ pub fn built_with(layers: Vec<Layer>, rule: RefinementRule, limits: Limits) -> B
         lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),
         domain,
         boundary: BoundaryTreatment::default_for(0.1),
+        lines: Default::default(),
         field,
         rule,
         cleaning: Cleaning::NONE,

@@ -24,6 +24,7 @@ pub fn try_formula_mesh(
         lattice: Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap(),
         domain: domain.clone(),
         boundary,
+        lines: Default::default(),
         field: SizeFieldSpec {
             layers: Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]),
             transfer: Transfer::between(f64::MIN_POSITIVE, f64::MAX),

@@ -12,6 +12,7 @@ use super::quantities::NamedQuantity;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{CourantFit, Layer, NodeDepths, StraitCount, Straits};
+use meshbrush_core::outline::LineEdges;
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{JoinedCells, MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -21,6 +22,8 @@ use meshbrush_mesh::text::{Grouped, digits};
 pub struct MeshDetails {
     /// The pieces, and the piece of each boundary edge.
     pub boundary: MeshBoundary,
+    /// The edges along lines.
+    pub lines: Vec<LineEdges>,
     /// For each triangle the number of its part, from the largest.
     pub parts: Vec<u32>,
     /// The cells with pairs of triangles joined, in the coordinates of files, once a file has them.
@@ -125,8 +128,10 @@ impl MeshDetails {
         let surface = finished.surface_fit(extract);
         let filled = surface.as_ref().filter(|_| uses.node_data);
         let heights = filled.map(|fit| fit.filled_heights(extract.view()));
+        let lines = LineEdges::all(finished.derived.line_fits(), extract);
         Ok(Self {
             boundary,
+            lines,
             parts,
             joined: JoinedCells::default(),
             provenance,

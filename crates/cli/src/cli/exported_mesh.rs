@@ -120,7 +120,7 @@ impl ExportedMesh<'_> {
     /// Returns the data of the mesh with these values at the nodes. A flat mesh has no heights.
     pub(super) fn data<'a>(&'a self, quantities: &'a [NodeValues], is_flat: bool) -> MeshData<'a> {
         let Self { details, provenance, target_diameter, .. } = *self;
-        let MeshDetails { boundary, parts, joined, .. } = details;
+        let MeshDetails { boundary, lines, parts, joined, .. } = details;
         let surface = quantities.iter().find(|values| values.name == SURFACE && !is_flat);
         let heights = surface.map(|surface| &*surface.values);
         MeshData {
@@ -128,6 +128,7 @@ impl ExportedMesh<'_> {
             quantities,
             heights,
             boundary,
+            lines,
             parts,
             cells: CellShape::OfFormat,
             joined,

@@ -17,6 +17,7 @@
 //!     lattice: Lattice::covering(domain.bounds, 0.05, 100_000)?,
 //!     domain,
 //!     boundary: BoundaryTreatment::default_for(0.05),
+//!     lines: Default::default(),
 //!     field: SizeFieldSpec {
 //!         layers: Layer::stack([LayerKind::target(formula)]),
 //!         transfer: Transfer::between(0.01, 1.0),

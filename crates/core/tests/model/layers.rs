@@ -373,6 +373,7 @@ fn meshes_are_the_smallest_refinements_that_meet_the_definition() {
         let mut builder = MeshBuilder::new(MeshSpec {
             domain: Domain::rectangle(case.lattice.bounds()),
             boundary: BoundaryTreatment::Report,
+            lines: Default::default(),
             lattice: case.lattice,
             field: case.spec.clone(),
             rule: RefinementRule::Area,

@@ -138,6 +138,7 @@ fn a_mesh_around_a_point_is_the_smallest_that_meets_the_closed_form() {
             let mut builder = MeshBuilder::new(MeshSpec {
                 domain: Domain::rectangle(lattice.bounds()),
                 boundary: BoundaryTreatment::Report,
+                lines: Default::default(),
                 lattice,
                 field: SizeFieldSpec {
                     layers,

@@ -202,7 +202,16 @@ fn spec(seed: u64, map: &Map, domain: &Domain) -> SizeFieldSpec {
 fn built(domain: Domain, boundary: BoundaryTreatment, field: SizeFieldSpec, scale: f64) -> BuiltMesh {
     let lattice = Lattice::covering(domain.bounds, SPACING * scale, 1000).unwrap();
     let (rule, cleaning, limits) = (RefinementRule::Area, Cleaning::FOR_SOLVERS, Limits::default());
-    let mut builder = MeshBuilder::new(MeshSpec { domain, boundary, lattice, field, rule, cleaning, limits });
+    let mut builder = MeshBuilder::new(MeshSpec {
+        domain,
+        boundary,
+        lines: Default::default(),
+        lattice,
+        field,
+        rule,
+        cleaning,
+        limits,
+    });
     while builder.advance(None, 10_000).unwrap() == Progress::More {}
     builder.finish()
 }

@@ -2,6 +2,7 @@ use std::io::{self, Write};
 
 use super::{CellShape, JoinedCells, Provenance};
 use meshbrush_core::domain::MeshBoundary;
+use meshbrush_core::outline::LineEdges;
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
 ///
@@ -17,6 +18,8 @@ pub struct MeshData<'a> {
     pub heights: Option<&'a [f64]>,
     /// The boundary in named pieces.
     pub boundary: &'a MeshBoundary,
+    /// The edges along lines of the document, for formats with strings of nodes or named curves.
+    pub lines: &'a [LineEdges],
     /// The number of each triangle's part, from 0 for the largest: [`Extract::part_numbers`].
     ///
     /// [`Extract::part_numbers`]: meshbrush_mesh::mesh::Extract::part_numbers

@@ -2,7 +2,7 @@
 //!
 //! z is the height of the surface, or 0 without one. The triangles are the physical surface `domain` (1), and
 //! so are quadrilaterals where squares are asked for; they follow the triangles.
-//! Each piece of the boundary that has edges in the mesh is a physical curve with the name and the marker of
+//! Each piece of the boundary that has edges in the mesh, and each line, is a physical curve with the name and the marker of
 //! the piece, with the domain on the left. h̄ and the quantities are node data; `level` and `part` (the
 //! number of the connected part, from 0 for the largest) are element data. Tags count from one, triangles
 //! first: without quadrilaterals the tag of a triangle is its id plus one.
@@ -15,8 +15,9 @@ use std::io::{self, Write};
 use super::format_spec::SquareCells;
 use super::written_cells::WrittenCells;
 use super::{FormatSpec, MeshData, Number, QuantityPlaces, ThirdCoordinate, TypicalSize, write_rows};
+use meshbrush_core::outline::LineEdge;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId};
+use meshbrush_mesh::mesh::{Extract, NodeId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -73,7 +74,7 @@ impl<W: Write> Writer<'_, W> {
     fn write(mut self, mesh: &Extract, data: &MeshData) -> io::Result<()> {
         let curves = Curve::all(mesh, data);
         self.write_head(data)?;
-        write_names(self.out, data, &curves)?;
+        write_names(self.out, &curves)?;
         self.write_entities(mesh, data, &curves)?;
         self.write_nodes(mesh, data)?;
         let cells = CellsByCorners::new(mesh, data);
@@ -95,7 +96,7 @@ impl<W: Write> Writer<'_, W> {
         mesh: &Extract,
         data: &MeshData,
         cells: &CellsByCorners<'_>,
-        curves: &[Curve],
+        curves: &[Curve<'_>],
     ) -> io::Result<()> {
         // meshio requires element data for all elements or none, so a boundary edge gets the data of its
         // triangle.
@@ -127,15 +128,16 @@ impl<W: Write> Writer<'_, W> {
     }
 
     /// A curve for each piece, and the surface that they bound: tag, bounds, physical group, boundary.
-    fn write_entities(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
+    fn write_entities(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve<'_>]) -> io::Result<()> {
         writeln!(self.out, "$Entities")?;
         self.row(&[Size(0), Size(curves.len()), Size(1), Size(0)])?;
         for curve in curves {
             let group = [Size(1), Int(curve.tag()), Size(0)];
             self.row(&[&[Int(curve.tag())], &box_values(&curve.bounds, curve.heights)[..], &group].concat())?;
         }
-        let boundary: Vec<MshNumber> = curves.iter().map(|curve| Int(curve.tag())).collect();
-        let group = [Size(1), Int(SURFACE), Size(curves.len())];
+        let around = curves.iter().filter(|curve| curve.is_of_boundary);
+        let boundary: Vec<MshNumber> = around.map(|curve| Int(curve.tag())).collect();
+        let group = [Size(1), Int(SURFACE), Size(boundary.len())];
         // In degrees the nodes are elsewhere than the lattice.
         let bounds = Rect::holding(mesh.world_nodes()).unwrap_or_else(|| mesh.lattice().bounds());
         let bounds = box_values(&bounds, height_range(data, 0..mesh.nodes().len()));
@@ -156,7 +158,7 @@ impl<W: Write> Writer<'_, W> {
         self.end("Nodes")
     }
 
-    fn write_elements(&mut self, cells: &CellsByCorners<'_>, curves: &[Curve]) -> io::Result<()> {
+    fn write_elements(&mut self, cells: &CellsByCorners<'_>, curves: &[Curve<'_>]) -> io::Result<()> {
         let CellsByCorners { written, order, triangles } = cells;
         let (triangles, of_cells) = (*triangles, order.len());
         let all = of_cells + curves.iter().map(|curve| curve.edges.len()).sum::<usize>();
@@ -245,10 +247,10 @@ impl<'a> CellsByCorners<'a> {
 }
 
 /// Writes the names of the physical groups.
-pub(super) fn write_names(out: &mut impl Write, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
+pub(super) fn write_names(out: &mut impl Write, curves: &[Curve<'_>]) -> io::Result<()> {
     writeln!(out, "$PhysicalNames\n{}", curves.len() + 1)?;
     for curve in curves {
-        let name = &data.boundary.pieces().list()[curve.piece].name;
+        let name = curve.name;
         writeln!(out, "1 {} \"{name}\"", curve.tag())?;
     }
     writeln!(out, "2 {SURFACE} \"domain\"\n$EndPhysicalNames")
@@ -279,36 +281,43 @@ fn write_row(out: &mut impl Write, values: &[MshNumber], is_binary: bool) -> io:
     writeln!(out)
 }
 
-/// The edges of a piece of the boundary.
-pub(super) struct Curve {
-    piece: usize,
-    /// Its edges, with the domain on the left.
-    pub(super) edges: Vec<BoundaryEdge>,
+/// The edges of a piece of the boundary, or those along a line.
+pub(super) struct Curve<'a> {
+    /// From 0; pieces of the boundary come first.
+    number: usize,
+    name: &'a str,
+    /// Its edges; those of the boundary with the domain on the left.
+    pub(super) edges: Vec<LineEdge>,
+    /// Whether it bounds the surface.
+    is_of_boundary: bool,
     bounds: Rect,
     /// The least and the greatest height.
     heights: [f64; 2],
 }
 
-impl Curve {
-    /// Returns the curves of all pieces that have edges in the mesh, by number.
-    pub(super) fn all(mesh: &Extract, data: &MeshData) -> Vec<Self> {
-        let mut edges = vec![Vec::new(); data.boundary.pieces().list().len()];
+impl<'a> Curve<'a> {
+    /// Returns the curves of all pieces and lines that have edges in the mesh, by number.
+    pub(super) fn all(mesh: &Extract, data: &MeshData<'a>) -> Vec<Self> {
+        let pieces = data.boundary.pieces().list();
+        let mut edges = vec![Vec::new(); pieces.len()];
         for (edge, &piece) in mesh.boundary_edges().zip(data.boundary.piece_of_edge()) {
-            edges[piece as usize].push(edge);
+            edges[piece as usize].push(LineEdge { ends: edge.ends, triangle: edge.triangle });
         }
-        let curve = |(piece, edges): (usize, Vec<BoundaryEdge>)| {
+        let of_boundary = pieces.iter().zip(edges).map(|(piece, edges)| (&*piece.name, edges, true));
+        let of_lines = data.lines.iter().map(|line| (&*line.name, line.edges.clone(), false));
+        let curve = |(number, (name, edges, is_of_boundary)): (usize, (&'a str, Vec<LineEdge>, bool))| {
             let nodes = edges.iter().flat_map(|edge| edge.ends);
             let heights = height_range(data, nodes.clone());
             let points = nodes.map(|node| mesh.world(NodeId::from_index(node)));
             let bounds = Rect::holding(points)?;
-            Some(Self { piece, edges, bounds, heights })
+            Some(Self { number, name, edges, is_of_boundary, bounds, heights })
         };
-        edges.into_iter().enumerate().filter_map(curve).collect()
+        of_boundary.chain(of_lines).enumerate().filter_map(curve).collect()
     }
 
     /// Returns the tag of the curve and of its physical group.
     pub(super) fn tag(&self) -> i32 {
-        self.piece as i32 + 1
+        self.number as i32 + 1
     }
 }
 

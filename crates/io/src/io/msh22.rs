@@ -33,7 +33,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let curves = Curve::all(mesh, data);
     writeln!(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat")?;
-    write_names(out, data, &curves)?;
+    write_names(out, &curves)?;
     writeln!(out, "$Nodes\n{}", mesh.nodes().len())?;
     write_rows(out, mesh.nodes().len(), |out, node| {
         let p = mesh.world(NodeId::from_index(node));
@@ -48,7 +48,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 }
 
 /// Triangles, and then the edges of the curves.
-fn write_elements(out: &mut impl Write, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
+fn write_elements(out: &mut impl Write, mesh: &Extract, curves: &[Curve<'_>]) -> io::Result<()> {
     let triangles = mesh.triangles().len();
     let lines: usize = curves.iter().map(|curve| curve.edges.len()).sum();
     writeln!(out, "$Elements\n{}", triangles + lines)?;

@@ -3,7 +3,7 @@
 //! z is the first quantity, such as a depth, else the height of the surface, and 0 without both. All elements
 //! have material 1: a solver needs a description of each material, so levels are not written as materials.
 //!
-//! Nodestrings are the pieces of the boundary with the domain on the left. One of a whole ring ends with its
+//! Nodestrings are the pieces of the boundary with the domain on the left, and then the lines of the document. One of a whole ring ends with its
 //! first node. A piece that is interrupted in the mesh has several nodestrings. The format has no place for
 //! names: comments give them by the numbers of the nodestrings. Numbers start at one.
 
@@ -30,7 +30,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// Nodes of a nodestring in one line.
 const NODES_A_LINE: usize = 10;
 
-/// Writes elements, nodes, and a nodestring for each piece of the boundary.
+/// Writes elements, nodes, and a nodestring for each piece of the boundary and each line.
 ///
 /// # Errors
 /// Fails with the errors of `out`.
@@ -53,10 +53,15 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))
     })?;
     let runs = data.boundary.runs(mesh);
-    for (id, run) in (1..).zip(&runs) {
-        writeln!(out, "# nodestring {id}: {}", data.boundary.pieces().list()[run.piece].name)?;
+    let of_boundary =
+        runs.iter().map(|run| (&data.boundary.pieces().list()[run.piece].name, run.nodes.clone()));
+    let of_lines =
+        data.lines.iter().flat_map(|line| line.runs().into_iter().map(|nodes| (&line.name, nodes)));
+    let strings: Vec<(&String, Vec<usize>)> = of_boundary.chain(of_lines).collect();
+    for (id, (name, _)) in (1..).zip(&strings) {
+        writeln!(out, "# nodestring {id}: {name}")?;
     }
-    (1..).zip(&runs).try_for_each(|(id, run)| write_nodestring(out, id, &run.nodes))
+    (1..).zip(&strings).try_for_each(|(id, (_, nodes))| write_nodestring(out, id, nodes))
 }
 
 /// The last node is negative, and the number of the nodestring follows it. py2dm requires two nodes in the

@@ -11,7 +11,7 @@ use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{DomainOnLattice, MeshBoundary};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{NodeDepths, PaintLayers, SizeField};
-use meshbrush_core::outline::{DerivedMesh, EdgeTargets};
+use meshbrush_core::outline::{DerivedMesh, EdgeTargets, LineEdges};
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::solver_rules::{BrokenRule, Severity, Solver, WrittenMesh, broken_rules};
 use meshbrush_io::io::{
@@ -112,9 +112,9 @@ impl MeshExport {
     /// Fails when a file cannot be written, nodes have no depth, the format cannot hold the mesh, or the work
     /// was cancelled. Existing files are then unchanged.
     pub fn write(&self, file: &Path, meter: &Meter) -> io::Result<(Vec<PathBuf>, [usize; 2])> {
-        let extract = self.extract();
+        let (extract, lines) = self.extract();
         let (values, _) = self.values_at_nodes(extract.view())?;
-        self.with_data(&extract, &values, meter, |placed, data| {
+        self.with_data((&extract, &lines), &values, meter, |placed, data| {
             let in_space = |space| self.look_in_space(&space, &extract);
             let space = self.space.and_then(in_space);
             let overlay = self.overlay.as_ref().filter(|_| space.is_none());
@@ -132,9 +132,9 @@ impl MeshExport {
     /// # Errors
     /// Fails as [`Self::write`] does, except for errors of the file system.
     pub fn measure(&self, meter: &Meter) -> io::Result<ExportFigures> {
-        let extract = self.extract();
+        let (extract, lines) = self.extract();
         let (values, depths) = self.values_at_nodes(extract.view())?;
-        self.with_data(&extract, &values, meter, |placed, data| {
+        self.with_data((&extract, &lines), &values, meter, |placed, data| {
             let pieces = data.boundary.pieces().list();
             let is_open = |piece: usize| pieces[piece].boundary_type().is_open();
             let bytes = match self.format {
@@ -166,9 +166,9 @@ impl MeshExport {
     /// # Errors
     /// Fails when nodes have no depth, and when the work was cancelled.
     pub fn broken_rules(&self, solver: Solver, meter: &Meter) -> io::Result<Vec<BrokenRule>> {
-        let extract = self.extract();
+        let (extract, lines) = self.extract();
         let (values, _) = self.values_at_nodes(extract.view())?;
-        let mut broken = self.with_data(&extract, &values, meter, |placed, data| {
+        let mut broken = self.with_data((&extract, &lines), &values, meter, |placed, data| {
             Ok(broken_rules(&WrittenMesh::of(placed, data, solver), solver))
         })?;
         if let Some(projection) = self.settings.domain.projection.filter(|_| !self.is_in_plane()) {
@@ -188,17 +188,20 @@ impl MeshExport {
         if self.format.wants_squares() { joined_cells(placed, data).joined_count() } else { 0 }
     }
 
-    fn extract(&self) -> Extract<'static> {
+    /// Returns the mesh as files get it, and its edges along lines.
+    fn extract(&self) -> (Extract<'static>, Vec<LineEdges>) {
         let targets = EdgeTargets::by_rule(self.settings.rule, &self.field, &self.paint);
         let cleaning = self.settings.derived_cleaning();
         let derived = DerivedMesh::new(&self.mesh, &self.domain, targets, &cleaning);
-        derived.extract(&self.mesh).into_owned()
+        let extract = derived.extract(&self.mesh).into_owned();
+        let lines = LineEdges::all(derived.line_fits(), &extract);
+        (extract, lines)
     }
 
     /// Calls `use_data` with the mesh in the coordinates of its files, and its data.
     fn with_data<T>(
         &self,
-        extract: &Extract,
+        (extract, lines): (&Extract, &[LineEdges]),
         values: &[NodeValues],
         meter: &Meter,
         use_data: impl FnOnce(&Extract, &MeshData) -> io::Result<T>,
@@ -215,6 +218,7 @@ impl MeshExport {
             quantities: values,
             heights,
             boundary: &boundary,
+            lines,
             parts: &extract.part_numbers(),
             cells: CellShape::OfFormat,
             joined: &JoinedCells::default(),

@@ -90,6 +90,7 @@ impl Sample {
             quantities,
             heights,
             boundary,
+            lines: &[],
             parts,
             cells: CellShape::Triangles,
             joined,

@@ -64,6 +64,7 @@ impl Details {
             quantities: &[],
             heights: None,
             boundary,
+            lines: &[],
             parts,
             cells: CellShape::Triangles,
             joined,

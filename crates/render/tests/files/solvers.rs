@@ -107,6 +107,7 @@ impl Case {
             quantities,
             heights: None,
             boundary,
+            lines: &[],
             parts,
             cells: CellShape::Triangles,
             joined,

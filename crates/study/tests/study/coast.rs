@@ -58,6 +58,7 @@ fn built(seed: u64) -> (BuiltMesh, Cleaning) {
         lattice: Lattice::covering(domain.bounds, spacing, 1_000_000).unwrap(),
         domain,
         boundary,
+        lines: Default::default(),
         field,
         rule: RefinementRule::Area,
         cleaning,

@@ -21,6 +21,7 @@
 //! order and directions of the lines, on the order of the mesh's entries, or on the number of threads. Each
 //! connected set of triangles around lines is an island; all threads work on different islands.
 
+mod edges;
 mod improve;
 mod insert;
 mod island;
@@ -40,6 +41,7 @@ use super::lengths::{EdgeTargets, LengthRule};
 use crate::domain::{LinesOnLattice, RegionOnLattice};
 use crate::geometry::{BoxTree, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch};
+pub use edges::{LineEdge, LineEdges};
 use island::{Island, Shared};
 use local::LocalMesh;
 use patched::{PatchedMesh, PatchedTriangle};

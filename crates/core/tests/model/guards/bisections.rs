@@ -18,6 +18,7 @@ fn built(domain: Domain, boundary: BoundaryTreatment, formula: &str, rule: Refin
         lattice: Lattice::covering(domain.bounds, 0.25, 1_000).unwrap(),
         domain,
         boundary,
+        lines: Default::default(),
         field: spec(Layer::stack([target(formula)])),
         rule,
         cleaning: Cleaning::NONE,

@@ -52,6 +52,7 @@ fn goals_of_other_norms_stay() {
         lattice: Lattice::covering(domain.bounds, 0.25, 100).unwrap(),
         domain,
         boundary: BoundaryTreatment::Report,
+        lines: Default::default(),
         field: spec(Layer::stack(kinds)),
         rule: RefinementRule::Area,
         cleaning: Cleaning::NONE,

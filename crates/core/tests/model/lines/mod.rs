@@ -9,7 +9,7 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use judge::{edges, judge, shape, smallest_angle, smallest_feature};
 use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
-use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Line, LinesOnLattice};
+use meshbrush_core::domain::{BoundaryTreatment, Domain, Line};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
 use meshbrush_core::outline::{DerivedMesh, LineProblem, MeshDerivation};
@@ -29,8 +29,7 @@ fn square() -> Domain {
 }
 
 fn derived(built: &BuiltMesh, lines: &[Line]) -> DerivedMesh {
-    let on_lattice = LinesOnLattice::of(lines, built.mesh.lattice());
-    let domain = built.domain.with_lines(on_lattice);
+    let domain = built.domain.clone().with_lines(lines);
     DerivedMesh::new(&built.mesh, &domain, None, &Cleaning::NONE)
 }
 
@@ -229,7 +228,7 @@ fn lines_on_coasts_keep_the_coast() {
 #[test]
 fn lines_in_a_domain_by_formula_end_at_its_stairs() {
     let formula = Formula::parse("sin(9 * x) * sin(7 * y) > 0.1").unwrap();
-    let domain = Domain { shape: DomainShape::Formula(formula), ..square() };
+    let domain = Domain { shape: formula.into(), ..square() };
     let built = formula_mesh(&domain, 0.09, BoundaryTreatment::Report, "0.04");
     for seed in seeds(15) {
         let random = &mut Rng::with_seed(seed);
@@ -258,6 +257,7 @@ fn built_by_area(target: f64) -> BuiltMesh {
         lattice: Lattice::covering(domain.bounds, 0.11, limits.max_triangles).unwrap(),
         domain,
         boundary: BoundaryTreatment::Report,
+        lines: Default::default(),
         field: SizeFieldSpec {
             layers: Layer::stack([LayerKind::constant(target)]),
             transfer: Transfer::between(f64::MIN_POSITIVE, f64::MAX),

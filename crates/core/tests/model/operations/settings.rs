@@ -1,10 +1,10 @@
 //! Changes of other settings.
 
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::Setting;
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, BoundaryType, Domain, DomainShape};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, BoundaryType, Domain, DomainShape, Line};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_mesh::geometry::Rect;
@@ -29,8 +29,9 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
         }),
         8 => Setting::Gradation([None, Some(0.1 + choices.share())][choices.below(2)]),
         9 => match choices.share() {
-            share @ ..0.5 => Setting::Cleaning(cleaning(2.0 * share)),
-            share => Setting::BoundaryMarks(marks((256.0 * share) as usize)),
+            share @ ..0.4 => Setting::Cleaning(cleaning(2.5 * share)),
+            share @ ..0.7 => Setting::BoundaryMarks(marks((256.0 * share) as usize)),
+            share => Setting::Lines(Arc::new(lines((1000.0 * share) as usize))),
         },
         10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
         11 | 12 => Setting::Bounds(bounds(choices)),
@@ -62,6 +63,19 @@ fn cleaning(share: f64) -> Cleaning {
         _ => KeptParts::Share(share - 0.6),
     };
     Cleaning { parts, keeps_pinches: (100.0 * share) % 2.0 < 1.0 }
+}
+
+/// Returns no line to three of them, which cross each other, the outline and the sides of the square.
+fn lines(number: usize) -> Vec<Line> {
+    const PLACES: [[f64; 2]; 7] =
+        [[0.1, 0.2], [0.85, 0.3], [0.5, 0.5], [0.3, 0.9], [0.95, 0.95], [0.6, 0.05], [1.2, 0.6]];
+    let place = |n: usize| DVec2::from(PLACES[n % PLACES.len()]);
+    let line = |n: usize| Line {
+        name: format!("line {n}"),
+        points: (0..2 + (number + n) % 3).map(|k| place(number + 3 * n + 2 * k)).collect(),
+        closed: (number + n) % 4 == 3,
+    };
+    (0..number % 4).map(line).collect()
 }
 
 /// Returns splits, names and types at some sides of the square and of the hole, and beside them.

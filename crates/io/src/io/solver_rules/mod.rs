@@ -344,6 +344,7 @@ fn plain_mesh(extract: &Extract, domain: &Domain, marks: &BoundaryMarks, solver:
         quantities: &[],
         heights: None,
         boundary: &MeshBoundary::new(extract, domain, marks),
+        lines: &[],
         parts: &[],
         cells: CellShape::Triangles,
         joined: &JoinedCells::default(),
