@@ -498,7 +498,8 @@ fn options_have_the_mesh_of_a_document_with_their_settings() {
             LayerKind::risk(formula("0.8*exp(-hypot(x - 1, y - 2))")),
             LayerKind::Threats(threats.unwrap()),
         ]);
-        let settings = Settings { domain, layers, ..default };
+        // Options name lines by files alone.
+        let settings = Settings { domain, layers, lines: Arc::default(), ..default };
         let mut document = Document::new(settings, None).unwrap();
         let project = Project::of(&document);
         RecipeFiles::new(&project, &folder.0.join("a.toml")).write(&Meter::default()).unwrap();

@@ -5,6 +5,7 @@ pub mod boundary;
 pub mod domain;
 pub mod inspection;
 pub mod layers;
+pub mod lines;
 pub mod painting;
 pub mod paths;
 pub mod picture;
@@ -22,6 +23,7 @@ use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
 use layers::LayerEditor;
+use lines::DocumentLines;
 use meshbrush_kit::kit::{Feature, Features, LayerKindRow, Row, kinds_of_layers};
 use painting::Painting;
 use paths::Paths;
@@ -56,6 +58,8 @@ features! {
     Painting,
     /// The domain.
     DomainEditor,
+    /// Lines inside the domain.
+    DocumentLines,
     /// The layers of the size field.
     LayerEditor,
     /// Regions drawn by hand.
