@@ -368,8 +368,8 @@ impl Settings {
         !self.domain.is_whole() && self.boundary != BoundaryTreatment::Report
     }
 
-    /// Returns whether files get another mesh than the one of right-angled triangles: where that meets an outline,
-    /// or has edges along lines.
+    /// Returns whether files get another mesh than the one of right-angled triangles: where that meets an
+    /// outline, or has edges along lines.
     pub fn is_derived(&self) -> bool {
         !self.lines.is_empty() || self.outline().is_some()
     }

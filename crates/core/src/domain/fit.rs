@@ -201,8 +201,8 @@ impl DomainOnLattice {
         Self { fitted, on_outline, ..self.clone() }
     }
 
-    /// Returns this domain with lines in place of former ones. A mesh is not refined for them; what is derived
-    /// from it has edges along them ([`DerivedMesh`](crate::outline::DerivedMesh)).
+    /// Returns this domain with lines in place of former ones. A mesh is not refined for them; what is
+    /// derived from it has edges along them ([`DerivedMesh`](crate::outline::DerivedMesh)).
     #[must_use]
     pub fn with_lines(self, lines: &[Line]) -> Self {
         let lines = (!lines.is_empty()).then(|| Arc::new(LinesOnLattice::of(lines, &self.lattice)));

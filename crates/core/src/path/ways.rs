@@ -58,7 +58,7 @@ struct Crossing {
 
 /// Where a line crosses edges.
 #[derive(Default)]
-struct Line {
+struct CrossLine {
     crossings: Vec<Crossing>,
     /// Crossings of one triangle.
     links: Vec<[usize; 2]>,
@@ -66,7 +66,7 @@ struct Line {
     numbers: HashMap<[u32; 2], usize>,
 }
 
-impl Line {
+impl CrossLine {
     /// The number of the crossing of an edge.
     fn add(&mut self, edge: [u32; 2], crossing: Crossing) -> usize {
         *self.numbers.entry(edge).or_insert_with(|| {
@@ -156,8 +156,8 @@ impl Ways<'_> {
     }
 
     /// Where the lines cross edges.
-    fn lines(&self, near: &[(u32, [Distances; 3])]) -> Vec<Line> {
-        let mut lines: Vec<Line> = (1..PARTS).map(|_| Line::default()).collect();
+    fn lines(&self, near: &[(u32, [Distances; 3])]) -> Vec<CrossLine> {
+        let mut lines: Vec<CrossLine> = (1..PARTS).map(|_| CrossLine::default()).collect();
         for &(triangle, distances) in near {
             let parts = distances.map(|[us, ug]| f64::from(PARTS) * us / (us + ug));
             let [first, last] = [f64::min, f64::max].map(|of| parts.into_iter().reduce(of).unwrap_or(0.0));
@@ -169,7 +169,7 @@ impl Ways<'_> {
     }
 
     /// Adds where a line crosses the edges of a triangle.
-    fn cross(&self, line: &mut Line, number: u32, triangle: u32, distances: [Distances; 3]) {
+    fn cross(&self, line: &mut CrossLine, number: u32, triangle: u32, distances: [Distances; 3]) {
         let share = f64::from(number) / f64::from(PARTS);
         let heights = distances.map(|[us, ug]| (1.0 - share) * us - share * ug);
         let corners = self.mesh.triangles[triangle as usize].corners;

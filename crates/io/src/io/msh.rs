@@ -1,11 +1,11 @@
 //! `.msh`: Gmsh 4.1, as text or in binary form, with the physical groups that solvers need.
 //!
 //! z is the height of the surface, or 0 without one. The triangles are the physical surface `domain` (1), and
-//! so are quadrilaterals where squares are asked for; they follow the triangles.
-//! Each piece of the boundary that has edges in the mesh, and each line, is a physical curve with the name and the marker of
-//! the piece, with the domain on the left. h̄ and the quantities are node data; `level` and `part` (the
-//! number of the connected part, from 0 for the largest) are element data. Tags count from one, triangles
-//! first: without quadrilaterals the tag of a triangle is its id plus one.
+//! so are quadrilaterals where squares are asked for; they follow the triangles. Each piece of the boundary
+//! that has edges in the mesh, and each line, is a physical curve with the name and the marker of the piece,
+//! with the domain on the left. h̄ and the quantities are node data; `level` and `part` (the number of the
+//! connected part, from 0 for the largest) are element data. Tags count from one, triangles first: without
+//! quadrilaterals the tag of a triangle is its id plus one.
 //!
 //! Both forms hold the same numbers. The binary one is quicker to write and to read, and not smaller. It is
 //! little-endian on every machine.

@@ -3,9 +3,10 @@
 //! z is the first quantity, such as a depth, else the height of the surface, and 0 without both. All elements
 //! have material 1: a solver needs a description of each material, so levels are not written as materials.
 //!
-//! Nodestrings are the pieces of the boundary with the domain on the left, and then the lines of the document. One of a whole ring ends with its
-//! first node. A piece that is interrupted in the mesh has several nodestrings. The format has no place for
-//! names: comments give them by the numbers of the nodestrings. Numbers start at one.
+//! Nodestrings are the pieces of the boundary with the domain on the left, and then the lines of the
+//! document. One of a whole ring ends with its first node. A piece that is interrupted in the mesh has
+//! several nodestrings. The format has no place for names: comments give them by the numbers of the
+//! nodestrings. Numbers start at one.
 
 use std::io::{self, Write};
 

@@ -53,8 +53,8 @@ pub struct InputArguments {
     #[command(flatten)]
     pub earth: EarthArguments,
 
-    /// Lines along which the mesh has edges, as a breakwater or a thalweg: a GeoJSON file, shapefile (.shp) or
-    /// GeoPackage (.gpkg) with lines or polygons; may be repeated
+    /// Lines along which the mesh has edges, as a breakwater or a thalweg: a GeoJSON file, shapefile (.shp)
+    /// or GeoPackage (.gpkg) with lines or polygons; may be repeated
     ///
     /// Where triangles are too coarse for them, --json says where, and which diameter would do.
     #[arg(long, value_name = "FILE")]

@@ -6,7 +6,7 @@ use super::Line;
 use crate::geometry::{Lattice, LatticePoint};
 
 /// A part of a line.
-pub(super) enum Clipped {
+pub(super) enum ClippedPart {
     /// On the grid: the ends on the lattice, the lower one first.
     Within { ends: [LatticePoint; 2], backwards: bool },
     /// Beyond the grid: the ends in world units.
@@ -16,10 +16,10 @@ pub(super) enum Clipped {
 }
 
 /// Cuts a line where it leaves the grid. Parts without length on the lattice are left out.
-pub(super) fn clip(line: &Line, lattice: &Lattice) -> Vec<Clipped> {
+pub(super) fn clip(line: &Line, lattice: &Lattice) -> Vec<ClippedPart> {
     let mut parts = Vec::new();
     if line.points.iter().any(|p| !p.is_finite()) {
-        parts.push(Clipped::NotFinite);
+        parts.push(ClippedPart::NotFinite);
     }
     for [a, b] in line.edges().filter(|[a, b]| a.is_finite() && b.is_finite() && a != b) {
         // The same numbers in both directions.
@@ -36,30 +36,30 @@ pub(super) fn clip(line: &Line, lattice: &Lattice) -> Vec<Clipped> {
 }
 
 /// Turns a part that [`cut`] returned.
-fn turn(part: &mut Clipped) {
+fn turn(part: &mut ClippedPart) {
     match part {
-        Clipped::Within { backwards, .. } => *backwards = !*backwards,
-        Clipped::Beyond(ends) => ends.swap(0, 1),
-        Clipped::NotFinite => {}
+        ClippedPart::Within { backwards, .. } => *backwards = !*backwards,
+        ClippedPart::Beyond(ends) => ends.swap(0, 1),
+        ClippedPart::NotFinite => {}
     }
 }
 
-fn cut(low: DVec2, high: DVec2, lattice: &Lattice) -> Vec<Clipped> {
+fn cut(low: DVec2, high: DVec2, lattice: &Lattice) -> Vec<ClippedPart> {
     let Some([from, to]) = shares_within(low, high, lattice) else {
-        return vec![Clipped::Beyond([low, high])];
+        return vec![ClippedPart::Beyond([low, high])];
     };
     let at = |share: f64| low + share * (high - low);
     let (first, last) = (if from > 0.0 { at(from) } else { low }, if to < 1.0 { at(to) } else { high });
     let (a, b) = (lattice.nearest(first), lattice.nearest(last));
     let mut parts = Vec::new();
     if from > 0.0 {
-        parts.push(Clipped::Beyond([low, first]));
+        parts.push(ClippedPart::Beyond([low, first]));
     }
     if a != b {
-        parts.push(Clipped::Within { ends: [a.min(b), a.max(b)], backwards: b < a });
+        parts.push(ClippedPart::Within { ends: [a.min(b), a.max(b)], backwards: b < a });
     }
     if to < 1.0 {
-        parts.push(Clipped::Beyond([last, high]));
+        parts.push(ClippedPart::Beyond([last, high]));
     }
     parts
 }

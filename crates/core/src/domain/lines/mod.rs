@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use crate::geometry::{Lattice, LatticePoint};
 use arrangement::Arrangement;
-use clip::{Clipped, clip};
+use clip::{ClippedPart, clip};
 pub(crate) use exact::{cross, crossing, is_near, lies_between, place};
 
 /// A line along which a mesh shall have edges: a breakwater, a thalweg, a dam.
@@ -78,9 +78,9 @@ pub(crate) enum LinePart {
 impl LinesOnLattice {
     /// Puts lines on a lattice. Takes time n log n for n corners and crossings.
     pub fn of(lines: &[Line], lattice: &Lattice) -> Self {
-        let clipped: Vec<Vec<Clipped>> = lines.iter().map(|line| clip(line, lattice)).collect();
+        let clipped: Vec<Vec<ClippedPart>> = lines.iter().map(|line| clip(line, lattice)).collect();
         let ends = clipped.iter().flatten().filter_map(|part| match *part {
-            Clipped::Within { ends, .. } => Some(ends),
+            ClippedPart::Within { ends, .. } => Some(ends),
             _ => None,
         });
         let arrangement = Arrangement::of(ends);
@@ -89,11 +89,11 @@ impl LinesOnLattice {
             let mut parts = Vec::new();
             for part in clipped {
                 match part {
-                    Clipped::Beyond(ends) => parts.push(LinePart::Beyond { ends }),
-                    Clipped::NotFinite => {
+                    ClippedPart::Beyond(ends) => parts.push(LinePart::Beyond { ends }),
+                    ClippedPart::NotFinite => {
                         parts.push(LinePart::NotFinite { near: first.unwrap_or(DVec2::ZERO) })
                     }
-                    Clipped::Within { ends, backwards } => {
+                    ClippedPart::Within { ends, backwards } => {
                         let from = parts.len();
                         parts.extend(arrangement.parts_of(ends));
                         if backwards {

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::{DVec2, dvec2};
 
-use super::local::{LocalMesh, NodeState};
+use super::local::{LineNodeState, LocalMesh};
 use crate::geometry::LatticePoint;
 use crate::outline::angles::Angles;
 use crate::outline::lengths::LengthAnswers;
@@ -43,7 +43,7 @@ pub(super) struct Improver<'a> {
 
 /// A change, with the largest cotangent that it leaves in the triangles that it changes.
 #[derive(Clone, Copy)]
-enum Change {
+enum Improvement {
     Flip { triangle: u32, edge: usize },
     Move { node: u32, to: LatticePoint },
     Collapse { node: u32, onto: u32 },
@@ -81,8 +81,8 @@ impl Improver<'_> {
 
     /// Makes the best change at a triangle, and returns nodes around which triangles have changed.
     fn improve(&mut self, local: &mut LocalMesh, t: u32) -> Option<Vec<u32>> {
-        let mut best: Option<(f64, Change)> = None;
-        let mut offer = |found: Option<(f64, Change)>| {
+        let mut best: Option<(f64, Improvement)> = None;
+        let mut offer = |found: Option<(f64, Improvement)>| {
             if let Some((worst, _)) = found
                 && best.is_none_or(|(least, _)| worst < least)
             {
@@ -103,19 +103,19 @@ impl Improver<'_> {
         Some(self.apply(local, change))
     }
 
-    fn apply(&self, local: &mut LocalMesh, change: Change) -> Vec<u32> {
+    fn apply(&self, local: &mut LocalMesh, change: Improvement) -> Vec<u32> {
         match change {
-            Change::Flip { triangle, edge } => {
+            Improvement::Flip { triangle, edge } => {
                 let mut nodes: Vec<u32> = local.triangles.corners[triangle as usize].into();
                 nodes.extend(local.opposite(triangle, edge).map(|(v, _)| v));
                 local.flip(triangle, edge);
                 nodes
             }
-            Change::Move { node, to } => {
+            Improvement::Move { node, to } => {
                 local.points[node as usize] = to;
                 vec![node]
             }
-            Change::Collapse { node, onto } => {
+            Improvement::Collapse { node, onto } => {
                 let mut star = Vec::new();
                 local.triangles.star(node, &mut star);
                 let at = |&(t, i): &(u32, usize)| local.triangles.starting_at(t, i)[1] == onto;
@@ -143,7 +143,7 @@ impl Improver<'_> {
         (after < before - LEAST_GAIN && self.allows(new, former)).then_some(after)
     }
 
-    fn flip(&mut self, local: &LocalMesh, t: u32, i: usize) -> Option<(f64, Change)> {
+    fn flip(&mut self, local: &LocalMesh, t: u32, i: usize) -> Option<(f64, Improvement)> {
         let (d, _) = local.opposite(t, i)?;
         let [a, b, c] = local.triangles.starting_at(t, i);
         if local.is_fixed(b, c) {
@@ -151,11 +151,13 @@ impl Improver<'_> {
         }
         let [a, b, c, d] = [a, b, c, d].map(|v| local.points[v as usize]);
         let after = self.gain(&[[a, b, d], [a, d, c]], &[[a, b, c], [b, d, c]])?;
-        Some((after, Change::Flip { triangle: t, edge: i }))
+        Some((after, Improvement::Flip { triangle: t, edge: i }))
     }
 
-    fn shift(&mut self, local: &LocalMesh, v: u32) -> Option<(f64, Change)> {
-        if local.states[v as usize] == NodeState::Fixed || local.states[v as usize] == NodeState::OnOutline {
+    fn shift(&mut self, local: &LocalMesh, v: u32) -> Option<(f64, Improvement)> {
+        if local.states[v as usize] == LineNodeState::Fixed
+            || local.states[v as usize] == LineNodeState::OnOutline
+        {
             return None;
         }
         let mut star = Vec::new();
@@ -188,15 +190,15 @@ impl Improver<'_> {
             }
             length /= 2.0;
         }
-        (best.0 < before - LEAST_GAIN).then_some((best.0, Change::Move { node: v, to: best.1 }))
+        (best.0 < before - LEAST_GAIN).then_some((best.0, Improvement::Move { node: v, to: best.1 }))
     }
 
     /// Returns the place of a node after a step in world units, on what it slides along.
     fn target(&self, local: &LocalMesh, v: u32, from: LatticePoint, by: DVec2) -> Option<LatticePoint> {
         let (step, start) = (self.angles.step(), from.as_dvec2());
         let to = match local.states[v as usize] {
-            NodeState::Free => start + by / step,
-            NodeState::OnSegment(segment) => {
+            LineNodeState::Free => start + by / step,
+            LineNodeState::OnSegment(segment) => {
                 let [a, b] = self.segments[segment as usize].map(LatticePoint::as_dvec2);
                 // The directions along it only: two of eight are enough.
                 if by.y != 0.0 {
@@ -207,22 +209,22 @@ impl Improver<'_> {
                 let share = (start - a).dot(along) / along.length_squared() + by.x / world;
                 (0.0 < share && share < 1.0).then(|| a + share * along)?
             }
-            NodeState::OnBoundary(axis) => {
+            LineNodeState::OnBoundary(axis) => {
                 if by.y != 0.0 {
                     return None;
                 }
                 if axis == 0 { start + dvec2(by.x / step.x, 0.0) } else { start + dvec2(0.0, by.x / step.y) }
             }
-            NodeState::Fixed | NodeState::OnOutline => return None,
+            LineNodeState::Fixed | LineNodeState::OnOutline => return None,
         };
         let to = (to + 0.5).floor().clamp(DVec2::ZERO, self.extent.as_dvec2());
         Some(LatticePoint::new(to.x as u32, to.y as u32))
     }
 
-    fn collapse(&mut self, local: &LocalMesh, v: u32, onto: u32) -> Option<(f64, Change)> {
+    fn collapse(&mut self, local: &LocalMesh, v: u32, onto: u32) -> Option<(f64, Improvement)> {
         let may = match local.states[v as usize] {
-            NodeState::Free => !local.on_boundary[v as usize],
-            NodeState::OnSegment(segment) => {
+            LineNodeState::Free => !local.on_boundary[v as usize],
+            LineNodeState::OnSegment(segment) => {
                 !local.on_boundary[v as usize] && local.fixed.get(&LocalMesh::key(v, onto)) == Some(&segment)
             }
             _ => false,
@@ -251,7 +253,7 @@ impl Improver<'_> {
             })
             .collect();
         let after = self.gain(&new, &former)?;
-        Some((after, Change::Collapse { node: v, onto }))
+        Some((after, Improvement::Collapse { node: v, onto }))
     }
 
     /// Returns whether a node on a ring has no other nodes of the ring beside it than these two: otherwise
@@ -297,9 +299,9 @@ impl Improver<'_> {
         let segment = local.fixed.get(&LocalMesh::key(b, c)).copied();
         let x = LatticePoint::new((pb.x + pc.x) / 2, (pb.y + pc.y) / 2);
         let state = match (segment, on_boundary) {
-            (_, true) => NodeState::Fixed,
-            (Some(segment), false) => NodeState::OnSegment(segment),
-            (None, false) => NodeState::Free,
+            (_, true) => LineNodeState::Fixed,
+            (Some(segment), false) => LineNodeState::OnSegment(segment),
+            (None, false) => LineNodeState::Free,
         };
         let x = match segment {
             Some(segment) => nearest_on(self.segments[segment as usize], x),

@@ -1,6 +1,6 @@
 //! Puts lines into triangles: their corners become nodes, and their segments edges.
 
-use super::local::{LocalMesh, NodeState};
+use super::local::{LineNodeState, LocalMesh};
 use super::stops::{Stop, StopKind};
 use crate::domain::{cross, crossing, is_near, lies_between};
 use crate::geometry::LatticePoint;
@@ -20,7 +20,7 @@ pub(super) struct Inserter<'a> {
 }
 
 /// How a segment goes on from a node.
-enum Step {
+enum LineStep {
     /// Along an edge to this node.
     To(u32),
     /// Through the edge opposite the corner of a triangle, at a place.
@@ -29,7 +29,7 @@ enum Step {
 
 /// What makes the place where a segment crosses an edge a node.
 #[derive(Clone, Copy)]
-enum Change {
+enum WayOfCrossing {
     Move(u32),
     Flip,
     Split,
@@ -44,9 +44,9 @@ impl<'a> Inserter<'a> {
     pub(super) fn node_at(&mut self, stop: &Stop, segment: u32) -> Option<u32> {
         let count = self.local.points.len();
         let (node, was) = match stop.kind {
-            StopKind::BoundaryNode(node) => (node, NodeState::Fixed),
+            StopKind::BoundaryNode(node) => (node, LineNodeState::Fixed),
             StopKind::BoundaryEdge(edge, on_outline) => {
-                (self.node_in_boundary(edge, stop.at, on_outline)?, NodeState::Fixed)
+                (self.node_in_boundary(edge, stop.at, on_outline)?, LineNodeState::Fixed)
             }
             StopKind::Corner | StopKind::Inside => {
                 let node = self.node_inside(stop)?;
@@ -55,9 +55,9 @@ impl<'a> Inserter<'a> {
         };
         // What ends a run only because the rest is left out may slide along the segment.
         let slides = stop.kind == StopKind::Inside && !self.local.on_boundary[node as usize];
-        let is_new = was == NodeState::Free || node as usize >= count;
+        let is_new = was == LineNodeState::Free || node as usize >= count;
         self.local.states[node as usize] =
-            if slides && is_new { NodeState::OnSegment(segment) } else { NodeState::Fixed };
+            if slides && is_new { LineNodeState::OnSegment(segment) } else { LineNodeState::Fixed };
         Some(node)
     }
 
@@ -72,8 +72,10 @@ impl<'a> Inserter<'a> {
         let mut best: Option<(f64, u32, LatticePoint)> = None;
         for v in edge {
             let to = match (self.local.states[v as usize], on_outline) {
-                (NodeState::OnBoundary(axis), _) if is_along(axis, self.local.points[v as usize], at) => at,
-                (NodeState::OnOutline, Some(to)) => to,
+                (LineNodeState::OnBoundary(axis), _) if is_along(axis, self.local.points[v as usize], at) => {
+                    at
+                }
+                (LineNodeState::OnOutline, Some(to)) => to,
                 _ => continue,
             };
             let worst = self.worst_moved(v, to);
@@ -83,11 +85,11 @@ impl<'a> Inserter<'a> {
         }
         if let Some((_, v, to)) = best {
             self.local.points[v as usize] = to;
-            self.local.states[v as usize] = NodeState::Fixed;
+            self.local.states[v as usize] = LineNodeState::Fixed;
             return Some(v);
         }
         let (t, i) = self.triangle_with(edge)?;
-        self.cut_edge(t, i, at, NodeState::Fixed)
+        self.cut_edge(t, i, at, LineNodeState::Fixed)
     }
 
     /// Makes a place inside the domain, or on its boundary, a node.
@@ -96,7 +98,9 @@ impl<'a> Inserter<'a> {
         let corners = self.local.triangles.corners[t as usize];
         let is_there = |v: &&u32| is_beside(self.local.points[**v as usize], stop.at);
         if let Some(&v) = corners.iter().find(is_there) {
-            if self.local.states[v as usize] == NodeState::Free && self.worst_moved(v, stop.at).is_finite() {
+            if self.local.states[v as usize] == LineNodeState::Free
+                && self.worst_moved(v, stop.at).is_finite()
+            {
                 self.local.points[v as usize] = stop.at;
             }
             return Some(v);
@@ -110,7 +114,7 @@ impl<'a> Inserter<'a> {
             let [_, b, c] = self.local.triangles.starting_at(t, i);
             return self.node_in_boundary([b, c], stop.at, Some(stop.at));
         }
-        let is_free = |v: &u32| self.local.states[*v as usize] == NodeState::Free;
+        let is_free = |v: &u32| self.local.states[*v as usize] == LineNodeState::Free;
         let mut candidates: Vec<u32> = corners.into_iter().filter(is_free).collect();
         if let Some((opposite, _)) = edge.and_then(|i| self.local.opposite(t, i)) {
             candidates.extend(Some(opposite).filter(is_free));
@@ -127,13 +131,13 @@ impl<'a> Inserter<'a> {
             return Some(v);
         }
         match edge {
-            Some(i) => self.cut_edge(t, i, stop.at, NodeState::Fixed),
+            Some(i) => self.cut_edge(t, i, stop.at, LineNodeState::Fixed),
             None => self.cut_triangle(t, stop.at),
         }
     }
 
     /// Cuts an edge, if that leaves no triangle without area.
-    fn cut_edge(&mut self, t: u32, i: usize, at: LatticePoint, state: NodeState) -> Option<u32> {
+    fn cut_edge(&mut self, t: u32, i: usize, at: LatticePoint, state: LineNodeState) -> Option<u32> {
         if !self.worst_cut(t, i, at).is_finite() {
             return None;
         }
@@ -149,7 +153,7 @@ impl<'a> Inserter<'a> {
         if parts.iter().any(|&part| !self.angles.worst(part).is_finite()) {
             return None;
         }
-        let x = self.local.add_node(at, NodeState::Fixed, false);
+        let x = self.local.add_node(at, LineNodeState::Fixed, false);
         self.local.split_triangle(t, x);
         Some(x)
     }
@@ -172,8 +176,8 @@ impl<'a> Inserter<'a> {
             }
             let here = self.local.points[at as usize];
             let next = match self.step(line, at, to).ok_or(here)? {
-                Step::To(v) => Some(v),
-                Step::Through(t, i, x) => self.cross(segment, line, (t, i), x),
+                LineStep::To(v) => Some(v),
+                LineStep::Through(t, i, x) => self.cross(segment, line, (t, i), x),
             };
             // A flip has made no node: the same place is looked at again.
             let Some(next) = next else { continue };
@@ -182,12 +186,12 @@ impl<'a> Inserter<'a> {
             }
             let state = &mut self.local.states[next as usize];
             *state = match *state {
-                NodeState::Free => NodeState::OnSegment(segment),
-                NodeState::OnSegment(own) if own == segment => *state,
-                _ => NodeState::Fixed,
+                LineNodeState::Free => LineNodeState::OnSegment(segment),
+                LineNodeState::OnSegment(own) if own == segment => *state,
+                _ => LineNodeState::Fixed,
             };
             if next != to && self.local.on_boundary[next as usize] {
-                *state = NodeState::Fixed;
+                *state = LineNodeState::Fixed;
             }
             self.local.fixed.insert(LocalMesh::key(at, next), segment);
             at = next;
@@ -196,7 +200,7 @@ impl<'a> Inserter<'a> {
     }
 
     /// Finds how the way from a node to another one goes on.
-    fn step(&mut self, line: [LatticePoint; 2], at: u32, to: u32) -> Option<Step> {
+    fn step(&mut self, line: [LatticePoint; 2], at: u32, to: u32) -> Option<LineStep> {
         let local = &*self.local;
         local.triangles.star(at, &mut self.star);
         let [a, b] = [at, to].map(|v| local.points[v as usize]);
@@ -207,14 +211,14 @@ impl<'a> Inserter<'a> {
             neighbours.push(local.triangles.starting_at(t, i)[2]);
         }
         if neighbours.contains(&to) {
-            return Some(Step::To(to));
+            return Some(LineStep::To(to));
         }
         let is_on_way = |&v: &u32| {
             let p = point(v);
             lies_between([a, b], p) && (cross(a, b, p) == 0 || is_near(line, p))
         };
         if let Some(v) = neighbours.into_iter().find(is_on_way) {
-            return Some(Step::To(v));
+            return Some(LineStep::To(v));
         }
         let sector = self.star.iter().find(|&&(t, i)| {
             let [_, p, q] = local.triangles.starting_at(t, i).map(point);
@@ -223,7 +227,7 @@ impl<'a> Inserter<'a> {
         let &(t, i) = sector?;
         let [_, p, q] = local.triangles.starting_at(t, i).map(point);
         let x = crossing(line, [p, q]).or_else(|| crossing([a, b], [p, q]))?;
-        Some(Step::Through(t, i, x))
+        Some(LineStep::Through(t, i, x))
     }
 
     /// Makes the place where a segment crosses an edge a node, and returns it; [`NONE`] if that is not
@@ -239,37 +243,37 @@ impl<'a> Inserter<'a> {
         if self.local.is_fixed(p, q) {
             return Some(NONE);
         }
-        let mut best: (f64, Option<Change>) = (f64::INFINITY, None);
-        let mut offer = |price: f64, change: Change| {
+        let mut best: (f64, Option<WayOfCrossing>) = (f64::INFINITY, None);
+        let mut offer = |price: f64, change: WayOfCrossing| {
             if price < best.0 {
                 best = (price, Some(change));
             }
         };
         for v in [p, q] {
-            if self.local.states[v as usize] == NodeState::Free {
-                offer(self.worst_moved(v, x), Change::Move(v));
+            if self.local.states[v as usize] == LineNodeState::Free {
+                offer(self.worst_moved(v, x), WayOfCrossing::Move(v));
             }
         }
         if let Some((opposite, _)) = self.local.opposite(t, i) {
             let at = self.local.points[opposite as usize];
-            let is_end = self.local.states[opposite as usize] == NodeState::Fixed && line.contains(&at);
+            let is_end = self.local.states[opposite as usize] == LineNodeState::Fixed && line.contains(&at);
             if is_end || is_near(line, at) {
-                offer(self.worst_flipped(t, i), Change::Flip);
+                offer(self.worst_flipped(t, i), WayOfCrossing::Flip);
             }
         }
-        offer(self.worst_cut(t, i, x) * PRICE_OF_NODE.0 + PRICE_OF_NODE.1, Change::Split);
+        offer(self.worst_cut(t, i, x) * PRICE_OF_NODE.0 + PRICE_OF_NODE.1, WayOfCrossing::Split);
         match best.1 {
             None => Some(NONE),
-            Some(Change::Move(v)) => {
+            Some(WayOfCrossing::Move(v)) => {
                 self.local.points[v as usize] = x;
                 Some(v)
             }
-            Some(Change::Flip) => {
+            Some(WayOfCrossing::Flip) => {
                 self.local.flip(t, i);
                 None
             }
-            Some(Change::Split) => {
-                Some(self.cut_edge(t, i, x, NodeState::OnSegment(segment)).unwrap_or(NONE))
+            Some(WayOfCrossing::Split) => {
+                Some(self.cut_edge(t, i, x, LineNodeState::OnSegment(segment)).unwrap_or(NONE))
             }
         }
     }

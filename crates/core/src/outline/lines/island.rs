@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::improve::Improver;
 use super::insert::Inserter;
-use super::local::{LocalMesh, NodeState};
+use super::local::{LineNodeState, LocalMesh};
 use super::sharp::SharpNodes;
 use super::stops::{CutSegment, Stop, StopKind, meets, rect_around};
 use crate::domain::{is_near, lies_between, place};
@@ -51,7 +51,7 @@ struct Run {
 }
 
 /// A stretch of a segment: the number of the segment in the island, and that of the stretch.
-type Stretch = (usize, usize);
+type CutStretch = (usize, usize);
 
 impl<'a> Island<'a> {
     /// Segments that are much shorter than the triangles are left out from the beginning.
@@ -91,7 +91,7 @@ impl<'a> Island<'a> {
 
     /// Notes the edges that lie on stretches that are left out: between nodes on both sides of one.
     fn find_edges(&self, local: &mut LocalMesh) {
-        let settled = |v: &u32| local.states[*v as usize] != NodeState::Free;
+        let settled = |v: &u32| local.states[*v as usize] != LineNodeState::Free;
         let nodes: Vec<u32> = (0..local.points.len() as u32).filter(settled).collect();
         let boxes: Vec<Rect> = nodes.iter().map(|&v| rect_around(&[local.points[v as usize]], 1.0)).collect();
         let (tree, mut star) = (BoxTree::new(&boxes), Vec::new());
@@ -165,7 +165,7 @@ impl<'a> Island<'a> {
     }
 
     /// Puts the runs into triangles, and returns the stretches for which that was not possible.
-    fn insert(&self, local: &mut LocalMesh) -> Vec<Stretch> {
+    fn insert(&self, local: &mut LocalMesh) -> Vec<CutStretch> {
         let (runs, mut failing) = (self.runs(), Vec::new());
         let mut ends: Vec<(u8, LatticePoint, usize, usize)> = Vec::new();
         for (n, run) in runs.iter().enumerate() {
@@ -200,7 +200,7 @@ impl<'a> Island<'a> {
     }
 
     /// Returns the stretch of a run in which a place is, or the nearest one.
-    fn stretch_at(&self, run: &Run, at: LatticePoint) -> Stretch {
+    fn stretch_at(&self, run: &Run, at: LatticePoint) -> CutStretch {
         let cut = &self.cuts[run.cut];
         let [a, b] = cut.ends.map(place);
         let along = |p: LatticePoint| {
@@ -237,14 +237,14 @@ impl<'a> Island<'a> {
 
     /// Returns stretches to leave out for triangles that fail: one for each, unless another one nearby was
     /// found before.
-    fn stretches_at(&self, local: &LocalMesh, failing: &[u32], attempt: usize) -> Vec<Stretch> {
+    fn stretches_at(&self, local: &LocalMesh, failing: &[u32], attempt: usize) -> Vec<CutStretch> {
         let mut found = Vec::new();
         let mut taken: Vec<Rect> = Vec::new();
-        let candidates: Vec<Stretch> = (0..self.cuts.len())
+        let candidates: Vec<CutStretch> = (0..self.cuts.len())
             .flat_map(|cut| (0..self.cuts[cut].inside.len()).map(move |n| (cut, n)))
             .filter(|&(cut, n)| self.cuts[cut].inside[n] && !self.left_out[cut][n])
             .collect();
-        let ends = |(cut, n): Stretch| [n, n + 1].map(|n| self.cuts[cut].stops[n].at);
+        let ends = |(cut, n): CutStretch| [n, n + 1].map(|n| self.cuts[cut].stops[n].at);
         let boxes: Vec<Rect> = candidates.iter().map(|&stretch| rect_around(&ends(stretch), 1.0)).collect();
         let tree = BoxTree::new(&boxes);
         for &t in failing {

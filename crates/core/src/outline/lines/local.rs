@@ -8,7 +8,7 @@ use crate::outline::triangulation::{NONE, Triangulation};
 
 /// What a node may do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NodeState {
+pub(super) enum LineNodeState {
     /// Anything that keeps the angles.
     Free,
     /// Slide along a segment.
@@ -29,7 +29,7 @@ pub(super) struct LocalMesh {
     /// For each triangle, the one of the mesh whose place it takes; `None` for one that is gone.
     pub(super) owners: Vec<Option<TriangleId>>,
     pub(super) points: Vec<LatticePoint>,
-    pub(super) states: Vec<NodeState>,
+    pub(super) states: Vec<LineNodeState>,
     /// For each node, whether it is on the boundary of the domain. Not known of nodes at which some triangles
     /// are missing.
     pub(super) on_boundary: Vec<bool>,
@@ -69,7 +69,7 @@ impl LocalMesh {
         let triangles = Triangulation::new(points.len(), corners, across);
         let mut local = Self {
             owners: owners.into_iter().map(Some).collect(),
-            states: vec![NodeState::Free; points.len()],
+            states: vec![LineNodeState::Free; points.len()],
             on_boundary: vec![false; points.len()],
             poor_at: vec![0.0; points.len()],
             triangles,
@@ -98,15 +98,15 @@ impl LocalMesh {
             self.on_boundary[n] = is_complete && !self.closes(&star);
             let is_whole = is_complete && star.len() == counts[n];
             self.states[n] = if !is_whole {
-                NodeState::Fixed
+                LineNodeState::Fixed
             } else if !self.on_boundary[n] {
-                NodeState::Free
+                LineNodeState::Free
             } else if let Some(axis) = self.boundary_axis(v, &star) {
-                NodeState::OnBoundary(axis)
+                LineNodeState::OnBoundary(axis)
             } else if self.is_nearly_straight(v, &star, angles) && on_outline(self.points[n]) {
-                NodeState::OnOutline
+                LineNodeState::OnOutline
             } else {
-                NodeState::Fixed
+                LineNodeState::Fixed
             };
         }
     }
@@ -224,7 +224,7 @@ impl LocalMesh {
     }
 
     /// Adds a node, which has no triangle yet.
-    pub(super) fn add_node(&mut self, at: LatticePoint, state: NodeState, on_boundary: bool) -> u32 {
+    pub(super) fn add_node(&mut self, at: LatticePoint, state: LineNodeState, on_boundary: bool) -> u32 {
         self.points.push(at);
         self.states.push(state);
         self.on_boundary.push(on_boundary);

@@ -171,7 +171,7 @@ struct Reporter<'a> {
 }
 
 /// A part of a line: its length, and why it is not on edges.
-struct Piece {
+struct LinePiece {
     length: f64,
     place: DVec2,
     problem: Option<(LineProblem, Option<f64>)>,
@@ -185,7 +185,11 @@ impl Reporter<'_> {
         }
         if line.parts.is_empty() {
             let place = line.first.unwrap_or(DVec2::ZERO);
-            pieces.push(Piece { length: line.length, place, problem: Some((LineProblem::NoLength, None)) });
+            pieces.push(LinePiece {
+                length: line.length,
+                place,
+                problem: Some((LineProblem::NoLength, None)),
+            });
         }
         let on_edges: f64 =
             pieces.iter().filter(|piece| piece.problem.is_none()).map(|piece| piece.length).sum();
@@ -201,8 +205,8 @@ impl Reporter<'_> {
         }
     }
 
-    fn push_pieces(&self, part: &LinePart, pieces: &mut Vec<Piece>, edges: &mut Vec<[LatticePoint; 2]>) {
-        let problem = |problem, length, place| Piece { length, place, problem: Some((problem, None)) };
+    fn push_pieces(&self, part: &LinePart, pieces: &mut Vec<LinePiece>, edges: &mut Vec<[LatticePoint; 2]>) {
+        let problem = |problem, length, place| LinePiece { length, place, problem: Some((problem, None)) };
         match *part {
             LinePart::NotFinite { near } => pieces.push(problem(LineProblem::NotFinite, 0.0, near)),
             LinePart::Beyond { ends: [a, b] } => {
@@ -226,7 +230,7 @@ impl Reporter<'_> {
     }
 
     /// Adds the pieces of a segment, from its lower end on.
-    fn push_segment(&self, segment: u32, pieces: &mut Vec<Piece>) {
+    fn push_segment(&self, segment: u32, pieces: &mut Vec<LinePiece>) {
         let ends = self.lines.segments[segment as usize];
         let [a, b] = ends.map(|p| self.lattice.world_from_lattice(p));
         let same = SAME_STEPS / (ends[1].as_dvec2() - ends[0].as_dvec2()).length();
@@ -255,15 +259,16 @@ impl Reporter<'_> {
             } else {
                 Some((LineProblem::OutsideDomain, None))
             };
-            pieces.push(Piece { length, place, problem });
+            pieces.push(LinePiece { length, place, problem });
         }
     }
 }
 
 /// Returns how far it is at most from a point of the line to one on an edge, along the line.
-fn farthest(pieces: &[Piece]) -> f64 {
+fn farthest(pieces: &[LinePiece]) -> f64 {
     let mut farthest = 0.0f64;
-    let runs: Vec<&[Piece]> = pieces.chunk_by(|a, b| a.problem.is_some() == b.problem.is_some()).collect();
+    let runs: Vec<&[LinePiece]> =
+        pieces.chunk_by(|a, b| a.problem.is_some() == b.problem.is_some()).collect();
     for (n, run) in runs.iter().enumerate().filter(|(_, run)| run[0].problem.is_some()) {
         let length: f64 = run.iter().map(|piece| piece.length).sum();
         let is_between = n > 0 && n + 1 < runs.len();
@@ -273,10 +278,10 @@ fn farthest(pieces: &[Piece]) -> f64 {
 }
 
 /// Returns the pieces that are not on edges, those with the same reason joined where they follow one another.
-fn unresolved(pieces: &[Piece]) -> Vec<UnresolvedPlace> {
-    let reason = |piece: &Piece| piece.problem.map(|(problem, _)| problem);
+fn unresolved(pieces: &[LinePiece]) -> Vec<UnresolvedPlace> {
+    let reason = |piece: &LinePiece| piece.problem.map(|(problem, _)| problem);
     let runs = pieces.chunk_by(|a, b| reason(a) == reason(b));
-    let place = |run: &[Piece]| {
+    let place = |run: &[LinePiece]| {
         let (problem, _) = run[0].problem?;
         let length: f64 = run.iter().map(|piece| piece.length).sum();
         let mut half = 0.5 * length;

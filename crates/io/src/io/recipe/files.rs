@@ -19,19 +19,20 @@ use super::super::{
 use super::LoadedLayer;
 use super::file_frame::{OutlineSource, check_east, part_in_bounds, sea_notes, sea_of_land};
 use super::grid_region::contour_of_grid;
+use super::line_files::check_lines;
 use super::notes::{
     cut_at_antimeridian, far_places, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
 };
 use super::opening::{self, OpenData};
 use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
-use meshbrush_core::domain::{BoundaryMarks, Domain, Line, OutlineOnEarth, Polygon};
+use meshbrush_core::domain::{BoundaryMarks, Domain, OutlineOnEarth, Polygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, ShapeList, Shapes, Threats};
 use meshbrush_core::raster::{RasterValues, Resampling};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
-use meshbrush_mesh::text::{Grouped, LengthUnit, abridged};
+use meshbrush_mesh::text::{LengthUnit, abridged};
 
 /// Why settings cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -160,20 +161,6 @@ impl SavedSettings {
         self.open_boundary(settings, &mut files)
     }
 
-    /// Reads the lines for a document. Returns them with notes for a person.
-    ///
-    /// # Errors
-    /// Fails when a file cannot be read or has no lines.
-    pub fn lines_for(
-        &self,
-        settings: &Settings,
-        loading: &Loading,
-    ) -> Result<(Vec<Line>, Vec<String>), LoadError> {
-        let mut files = Files::for_document(settings, None, loading);
-        let lines = self.read_lines(&mut files)?;
-        Ok((lines, files.notes))
-    }
-
     /// Opens the boundary where `open` says. Returns notes for a person.
     fn open_boundary(&self, settings: &mut Settings, files: &mut Files) -> Result<Vec<String>, LoadError> {
         let entries = &self.domain.open.0;
@@ -202,7 +189,7 @@ pub(super) struct Files<'a> {
     /// A sentence for a person about the polygons.
     note: Option<String>,
     /// Sentences for a person about the data of files.
-    notes: Vec<String>,
+    pub(super) notes: Vec<String>,
 }
 
 impl<'a> Files<'a> {
@@ -394,19 +381,10 @@ impl Storage for Files<'_> {
     fn lines(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
         let Self { loading, plane, .. } = self;
         let shapes = loading.shapes(file, || shape_format::read_own_shapes(file, None, loading.meter))?;
-        let ShapeList { points, lines, polygons } =
-            shape_format::placed_shapes(shapes, plane.as_ref(), file)?.shapes;
-        if lines.is_empty() && polygons.is_empty() {
-            let problem =
-                "has no lines and no polygons. Name a file with lines along which the mesh shall have edges.";
-            return Err(LoadError::Unsuited(format!("{} {problem}", file.display())));
-        }
-        if !points.is_empty() {
-            let count = Grouped(points.len());
-            let note = format!("{}: its {count} points are no lines and are left out.", file.display());
-            LayerData::note(self, note);
-        }
-        Ok(ShapeList { points, lines, polygons })
+        let shapes = shape_format::placed_shapes(shapes, plane.as_ref(), file)?.shapes;
+        let note = check_lines(file, &shapes)?;
+        note.into_iter().for_each(|note| LayerData::note(self, note));
+        Ok(shapes)
     }
 }
 

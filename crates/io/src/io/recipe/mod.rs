@@ -6,6 +6,7 @@ mod export;
 mod file_frame;
 mod files;
 mod grid_region;
+mod line_files;
 mod notes;
 mod open;
 mod opening;

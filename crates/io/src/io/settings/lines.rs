@@ -35,8 +35,8 @@ impl SavedLine {
         }
     }
 
-    /// Returns the line, or all lines of its file; `read` reads that. Lines of a file are numbered where it has
-    /// several.
+    /// Returns the line, or all lines of its file; `read` reads that. Lines of a file are numbered where it
+    /// has several.
     pub(super) fn load<E: From<KeyFault>>(
         &self,
         read: impl FnOnce(&Path) -> Result<ShapeList, E>,

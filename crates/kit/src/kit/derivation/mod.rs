@@ -12,6 +12,7 @@
 //! have to copy a large one before it continues.
 
 mod coast;
+mod key;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -19,14 +20,15 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use coast::{Coast, RemovedTriangles};
+pub use key::DerivationKey;
 
 use super::jobs::{Job, JobKind, Jobs, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
-use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Line, Region};
+use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Region};
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_core::outline::{DerivedMesh, LineFit, MeshDerivation, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
-    Changes, Cleaning, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
+    Changes, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
     TriangleId,
 };
 
@@ -40,32 +42,6 @@ pub struct ShownChange {
     pub mesh: Option<MeshChange>,
     /// The change of the pieces that are drawn in place of some triangles.
     pub pieces: Option<PiecesChange>,
-}
-
-/// The data that a derived mesh depends on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DerivationKey {
-    revision: u64,
-    on_outline: bool,
-    cleaning: Cleaning,
-    /// The outline that the mesh meets, if there is one.
-    region: Option<Arc<Region>>,
-    lines: Arc<Vec<Line>>,
-}
-
-impl DerivationKey {
-    /// Returns the data that the derived mesh of the follower depends on; `None` if the mesh itself is
-    /// exported.
-    fn of(follower: &Follower) -> Option<Self> {
-        let settings = follower.settings();
-        settings.is_derived().then(|| Self {
-            revision: follower.revision(),
-            on_outline: follower.domain().region_on_outline().is_some(),
-            cleaning: settings.derived_cleaning(),
-            region: settings.outline(),
-            lines: settings.lines.clone(),
-        })
-    }
 }
 
 /// A mesh as files have it. Ids are the numbers in files.
