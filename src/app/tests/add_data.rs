@@ -248,12 +248,15 @@ fn an_array_lies_where_its_world_file_says_or_over_the_document() {
 }
 
 #[test]
-fn a_line_can_only_be_measured_to_and_the_reason_is_told() {
+fn a_line_can_be_measured_to_or_be_a_line_of_the_mesh_and_other_reasons_are_told() {
     let file = written("line", "line.geojson", LINE);
     let mut window = window();
     drop_and_wait(&mut window, &file);
     let (possible, chosen) = roles(&window);
-    assert_eq!(possible, ["Sea around this land", "Shapes to measure the distance to"]);
+    assert_eq!(
+        possible,
+        ["Sea around this land", "Shapes to measure the distance to", "Lines inside the mesh"]
+    );
     assert_eq!(chosen.as_deref(), Some("Shapes to measure the distance to"));
     assert!(window.query_all_by_label_contains("has no polygons").count() > 0);
     key(&mut window, Modifiers::NONE, Key::Enter);

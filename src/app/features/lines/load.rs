@@ -5,7 +5,7 @@ use std::path::Path;
 use super::LinesCommand;
 use meshbrush_io::io::recipe::Loading;
 use meshbrush_io::io::settings::{SavedLine, SavedSettings};
-use meshbrush_kit::kit::background::{Aim, Background, Outcome, name_of};
+use meshbrush_kit::kit::background::{Aim, Background, Outcome};
 use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::session::Session;
 
@@ -13,7 +13,8 @@ use meshbrush_kit::kit::session::Session;
 pub fn load_lines(session: &Session, background: &mut Background, path: &Path) {
     let (file, settings) = (path.to_owned(), session.document().settings().clone());
     background.start(Aim::Read, path, move |meter| {
-        let line = SavedLine { name: Some(name_of(&file)), file: Some(file), ..SavedLine::default() };
+        let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let line = SavedLine { name, file: Some(file), ..SavedLine::default() };
         let saved: SavedSettings = SavedSettings { line: vec![line], ..SavedSettings::default() };
         match saved.lines_for(&settings, &Loading::for_document(meter)) {
             Ok((lines, notes)) => Outcome::PartRead(vec![Command::from(LinesCommand::Add(lines, notes))]),
