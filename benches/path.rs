@@ -239,7 +239,9 @@ fn coasts() {
         &Cleaning::FOR_SOLVERS,
     );
     let extract = derived.extract(follower.mesh());
-    let area = |clearance| PathArea::new(&domain, Vec::new(), clearance).expect("a distance");
+    let area = |clearance| {
+        PathArea::new(&domain, document.settings().boundary, Vec::new(), clearance).expect("a distance")
+    };
     for threads in [1, 2] {
         let pool = pool(threads);
         let report = |name: &str, mesh: &(dyn Fn() -> PathMesh + Sync)| {

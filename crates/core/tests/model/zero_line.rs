@@ -189,8 +189,9 @@ struct Found {
     smallest_angle: f64,
 }
 
-/// More than this many lattice steps from the line, a node is off it.
-const STEPS: f64 = 1.6;
+/// More than this many lattice steps from the line, a node is off it: the grid of polygons, their corners on
+/// the lattice and the node itself are rounded, each by up to half a diagonal, besides the tolerance of chords.
+const STEPS: f64 = 2.7;
 
 fn check(finished: &Finished, shape: &Shape, bounds: &Rect) -> Found {
     let extract = finished.extract();
