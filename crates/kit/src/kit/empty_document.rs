@@ -29,6 +29,7 @@ impl EmptyDocument {
             && settings.layers == default.layers;
         let has_no_data = document.paint().is_blank()
             && settings.background.is_none()
+            && settings.lines.is_empty()
             && settings.pins.is_empty()
             && settings.paths == default.paths;
         (has_default_lengths && has_no_data).then(|| Self(settings.clone()))
