@@ -465,6 +465,7 @@ fn options(settings: &Settings) -> Vec<String> {
     add("transfer-shape", settings.transfer.shape.to_string());
     add("rule", if settings.rule == RefinementRule::Area { "area" } else { "vertex" }.into());
     settings.gradation.iter().for_each(|gradation| add("gradation", gradation.to_string()));
+    settings.max_level.iter().for_each(|level| add("max-level", level.to_string()));
     for layer in &settings.layers {
         match &layer.kind {
             LayerKind::Formula(FormulaLayer { quantity: Quantity::Risk, formula }) => {
