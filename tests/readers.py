@@ -23,11 +23,13 @@ import trimesh
 ENDINGS = ["vtu", "msh", "msh2", "ww3", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
 TARGET = "0.02 + 0.1*hypot(x - 0.3, y - 0.2)"
 COAST = pathlib.Path(__file__).parent.parent / "assets" / "aegean_sea.geojson"
+RING = "r < 0.95 and r > 0.35"
 CASES = {
     "a square": ["--spacing", "0.1"],
     "cells that are not square": ["--domain", "-3.25,0,4.5,3.3", "--spacing", "1.1"],
     "a coast, with nodes on it": ["--region", str(COAST), "--spacing", "0.5", "--boundary", "outline", "--boundary-diameter", "0.05"],
-    "a ring": ["--domain", "-1,-1,1,1", "--spacing", "0.1", "--inside", "r < 0.95 and r > 0.35"],
+    "a ring": ["--domain", "-1,-1,1,1", "--spacing", "0.1", "--inside", RING],
+    "a ring of coarse cells": ["--domain", "-1,-1,1,1", "--spacing", "0.1", "--inside", RING, "--boundary", "report"],
 }
 PICTURE = [640, 400]
 
@@ -251,6 +253,9 @@ def expected_area(summary, options):
     width, height = sizes(options)
     if "--inside" not in options:
         return width * height
+    if "--boundary" not in options:
+        assert abs(summary["area"] / (np.pi * (0.95**2 - 0.35**2)) - 1) < 1e-4, "the area of the ring"
+        return summary["area"]
     # Half a cell of the grid, halved at each level.
     coarse = summary["spacing"] ** 2 / 2
     return sum(count * coarse / 2**level for level, count in enumerate(summary["levels"]))
