@@ -120,7 +120,8 @@ impl Core {
     fn newly_derived(&self) -> Result<Derived, String> {
         let mesh = self.mesh().ok_or("There is no mesh yet.")?;
         self.check_surface(mesh)?;
-        let targets = self.follower.as_ref().and_then(|follower| follower.edge_targets(self.document.paint()));
+        let targets =
+            self.follower.as_ref().and_then(|follower| follower.edge_targets(self.document.paint()));
         let derived = DerivedMesh::new(mesh, self.domain_on_lattice(), targets, &self.cleaning());
         if derived.patch().leaves_nothing_of(mesh) {
             return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.to_string());

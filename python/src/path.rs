@@ -112,7 +112,8 @@ impl Asked {
             .iter()
             .map(|shapes| mask(shapes, plane.as_ref(), &watch.meter))
             .collect::<Result<_, _>>()?;
-        let area = PathArea::new(domain, finished.spec().boundary, keep_out, self.clearance).map_err(sentence)?;
+        let area =
+            PathArea::new(domain, finished.spec().boundary, keep_out, self.clearance).map_err(sentence)?;
         watch.tell("finding the path", 0);
         let (mut solution, mesh) = shared.with_extract(|extract| {
             let mesh = Arc::new(PathMesh::in_area(extract.view(), &area));
