@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::island::Island;
 use super::local::LocalMesh;
 use super::stops::{Stop, StopKind};
-use crate::domain::{LineOnLattice, LinePart, LinesOnLattice, place};
+use crate::domain::{LineOnLattice, LinePart, LinesOnLattice, cross, place};
 use crate::geometry::{BoxTree, Lattice, LatticePoint, NumberMap, Rect, nearest_on_segment};
 use crate::mesh::{Extract, Mesh};
 
@@ -119,7 +119,10 @@ pub(super) fn fits(mesh: &Mesh, lines: &LinesOnLattice, fitted: &[(Island, Local
             if share(segment, ends[1]) < share(segment, ends[0]) {
                 ends.reverse();
             }
-            found.entry(segment).or_default().edges.push(ends);
+            // At stairs of the boundary, the last node of a segment can slide off it.
+            if ends.iter().all(|&p| is_along(lines.segments[segment as usize], p)) {
+                found.entry(segment).or_default().edges.push(ends);
+            }
         }
         for cut in &island.cuts {
             let of_segment = found.entry(cut.segment).or_default();
@@ -152,6 +155,12 @@ fn share_in_domain(ends: [LatticePoint; 2], stop: &Stop, entering: bool) -> f64 
         StopKind::BoundaryEdge(_, Some(other)) => own.min(share(ends, other)),
         _ => own,
     }
+}
+
+/// Returns whether a point is at most a few lattice steps beside the straight line through a segment.
+fn is_along([a, b]: [LatticePoint; 2], p: LatticePoint) -> bool {
+    let length = (b.as_dvec2() - a.as_dvec2()).length();
+    (cross(a, b, p) as f64).abs() <= SAME_STEPS * length
 }
 
 /// Returns the place of a point along a segment, as a share of its length.
