@@ -22,7 +22,7 @@ impl FormulaShape {
     }
 
     /// Returns the polygons in a proper rectangle, or why there are none. Where they are not known yet, they
-    /// are found now, which takes some 50 ms for a circle, and can take seconds.
+    /// are found now, which takes some 0.15 s for a circle, and can take seconds.
     pub(super) fn outline_in(&self, bounds: &Rect) -> ZeroLine {
         // Not under the lock: threads that share the work might wait for each other.
         self.known_outline(bounds).unwrap_or_else(|| {

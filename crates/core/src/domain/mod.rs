@@ -268,7 +268,7 @@ impl Domain {
 
     /// Returns the polygons that the mesh meets in a way of treating the boundary: those of the domain, or
     /// the zero line of its formula where nodes or triangles follow that. It is followed now unless it is
-    /// known, which takes some 50 ms for a circle, and can take seconds.
+    /// known, which takes some 0.15 s for a circle, and can take seconds.
     pub fn outline(&self, boundary: BoundaryTreatment) -> Option<Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region.clone()),
