@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::build::FinishedMesh;
+use super::summary::counted;
 use meshbrush_core::outline::{LineFit, LineProblem, UnresolvedPlace};
 use meshbrush_mesh::text::Number;
 
@@ -65,10 +66,7 @@ impl LineSummary {
             [] => String::new(),
             [first, ..] => format!(
                 "; {} of it are not, the first at {}, {}: {}{}",
-                match self.unresolved.len() {
-                    1 => "1 part".to_owned(),
-                    count => format!("{count} parts"),
-                },
+                counted(self.unresolved.len(), "part"),
                 Number(first.place[0]),
                 Number(first.place[1]),
                 first.reason,

@@ -21,12 +21,6 @@ use meshbrush_io::io::{KeyFault, KeyStep};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Length, LengthUnit};
 
-/// Returns the lines of a file, with its name.
-fn line(file: &Path) -> SavedLine {
-    let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    SavedLine { name, file: Some(file.to_owned()), ..SavedLine::default() }
-}
-
 /// Returns the settings that the options state; every value is checked on its own.
 ///
 /// # Errors
@@ -83,7 +77,7 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             gradation: typed.gradation,
         },
         layer: layers.iter().map(|(_, layer)| layer.clone()).collect(),
-        line: typed.lines.iter().map(|file| line(file)).collect(),
+        line: typed.lines.iter().map(|file| SavedLine::of_file(file)).collect(),
         ..SavedSettings::default()
     };
     settings.check().map_err(|fault| refused(&fault, typed, &layers))?;

@@ -312,7 +312,7 @@ fn angles(smallest: f64, largest: f64) -> String {
 }
 
 /// Returns a number with its noun.
-fn counted(count: usize, noun: &str) -> String {
+pub(super) fn counted(count: usize, noun: &str) -> String {
     let ending = match noun {
         _ if count == 1 => "",
         "pinch" => "es",

@@ -9,7 +9,7 @@ use crate::geometry::LatticePoint;
 use crate::mesh::Extract;
 
 /// The cosine of 30°, the smallest turn of a sharp corner.
-const COS_30: f64 = 0.866_025_403_784_438_6;
+pub(crate) const COS_30: f64 = 0.866_025_403_784_438_6;
 
 impl Region {
     /// Returns the corners at which the outline turns by more than 30° and a mesh has no node, in the order

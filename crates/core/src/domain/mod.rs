@@ -58,6 +58,7 @@ pub use formula_shape::FormulaShape;
 pub use holes::HoleFigures;
 pub use lines::{Line, LinesOnLattice};
 pub(crate) use lines::{LineOnLattice, LinePart, cross, crossing, is_near, lies_between, place};
+pub(crate) use missed_corners::COS_30;
 pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::RegionOutline;
 pub(crate) use outline_query::OutlineNearby;

@@ -11,14 +11,12 @@ use super::flat::has_sector;
 use super::snap::OutlineSide;
 use super::stencil::NodePlacement;
 use super::triangulation::NONE;
-use crate::domain::RegionOnLattice;
+use crate::domain::{COS_30, RegionOnLattice};
 use crate::geometry::LatticePoint;
 use crate::mesh::Mesh;
 
 /// The cotangent of 12°, the smallest angle that is accepted beside a corner.
 const COT_12: f64 = 4.704_630_109_478_455;
-/// The cosine of 30°, the smallest turn of a sharp corner.
-const COS_30: f64 = 0.866_025_403_784_438_6;
 /// A node that moves to a corner is at most a leg away from it, after it moved to the outline by at most half
 /// an edge. This many legs allow for an adjacent triangle that is one level coarser.
 const CORNER_LEGS: f64 = 2.5;

@@ -13,8 +13,8 @@ use super::snap::rounded;
 use crate::domain::{OutlineNearby, RegionOnLattice};
 use crate::geometry::LatticePoint;
 
-/// The directions of the search, in world units.
-const DIRECTIONS: [DVec2; 8] = [
+/// The directions of a search for a better position, in world units.
+pub(super) const DIRECTIONS: [DVec2; 8] = [
     dvec2(1.0, 0.0),
     dvec2(FRAC_1_SQRT_2, FRAC_1_SQRT_2),
     dvec2(0.0, 1.0),

@@ -172,7 +172,7 @@ fn bound(domain: &Domain, lattice: &Lattice, corners: usize) -> f64 {
 }
 
 /// Returns the triangles by their corners, in an order of their own.
-fn shape(extract: &Extract) -> Vec<[[u32; 2]; 3]> {
+pub fn shape(extract: &Extract) -> Vec<[[u32; 2]; 3]> {
     let corners = |cell: meshbrush_mesh::mesh::Cell| {
         let corners = cell.corners.map(|node| extract.nodes()[node]).map(|p| [p.x, p.y]);
         let lowest = (0..3).min_by_key(|&i| corners[i]).unwrap();

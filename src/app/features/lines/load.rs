@@ -13,9 +13,8 @@ use meshbrush_kit::kit::session::Session;
 pub fn load_lines(session: &Session, background: &mut Background, path: &Path) {
     let (file, settings) = (path.to_owned(), session.document().settings().clone());
     background.start(Aim::Read, path, move |meter| {
-        let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let line = SavedLine { name, file: Some(file), ..SavedLine::default() };
-        let saved: SavedSettings = SavedSettings { line: vec![line], ..SavedSettings::default() };
+        let line = vec![SavedLine::of_file(&file)];
+        let saved: SavedSettings = SavedSettings { line, ..SavedSettings::default() };
         match saved.lines_for(&settings, &Loading::for_document(meter)) {
             Ok((lines, notes)) => Outcome::PartRead(vec![Command::from(LinesCommand::Add(lines, notes))]),
             Err(error) => Outcome::NotRead(error.to_string()),

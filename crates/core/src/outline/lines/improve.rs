@@ -1,26 +1,14 @@
 //! Raises the smallest angles: flips edges, shifts nodes, and joins nodes that are too near to each other.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use glam::{DVec2, dvec2};
 
 use super::local::{LineNodeState, LocalMesh};
 use crate::geometry::LatticePoint;
 use crate::outline::angles::Angles;
 use crate::outline::lengths::LengthAnswers;
+use crate::outline::smooth::DIRECTIONS;
 use crate::outline::triangulation::NONE;
 
-/// The directions of the search for a free node, in world units.
-const DIRECTIONS: [DVec2; 8] = [
-    dvec2(1.0, 0.0),
-    dvec2(FRAC_1_SQRT_2, FRAC_1_SQRT_2),
-    dvec2(0.0, 1.0),
-    dvec2(-FRAC_1_SQRT_2, FRAC_1_SQRT_2),
-    dvec2(-1.0, 0.0),
-    dvec2(-FRAC_1_SQRT_2, -FRAC_1_SQRT_2),
-    dvec2(0.0, -1.0),
-    dvec2(FRAC_1_SQRT_2, -FRAC_1_SQRT_2),
-];
 /// Step lengths of the search, as shares of the mean edge: the first one, and how often it is halved.
 const FIRST_STEP: f64 = 0.25;
 const STEP_LENGTHS: usize = 5;

@@ -152,15 +152,3 @@ fn distance([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> f64 {
     };
     to(a, [c, d]).min(to(b, [c, d])).min(to(c, [a, b])).min(to(d, [a, b]))
 }
-
-/// Returns the triangles by their corners, in an order of their own.
-pub fn shape(extract: &Extract) -> Vec<[[u32; 2]; 3]> {
-    let corners = |cell: meshbrush_mesh::mesh::Cell| {
-        let corners = cell.corners.map(|node| extract.nodes()[node]).map(|p| [p.x, p.y]);
-        let lowest = (0..3).min_by_key(|&i| corners[i]).unwrap();
-        [0, 1, 2].map(|i| corners[(lowest + i) % 3])
-    };
-    let mut shape: Vec<_> = extract.cells().map(corners).collect();
-    shape.sort_unstable();
-    shape
-}

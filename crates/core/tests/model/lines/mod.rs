@@ -5,9 +5,10 @@ mod random;
 
 use std::sync::Arc;
 
+use crate::outline::shape;
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use judge::{edges, judge, shape, smallest_angle, smallest_feature};
+use judge::{edges, judge, smallest_angle, smallest_feature};
 use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, Line};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};

@@ -134,8 +134,7 @@ impl SavedSettings {
             place("file", &mut region.file).map_err(|fault| fault.within(index).within("keep_out"))?;
         }
         for (index, line) in self.line.iter_mut().enumerate() {
-            let stem = line.file.as_deref().and_then(Path::file_stem);
-            line.name = line.name.take().or(stem.map(|stem| stem.to_string_lossy().into_owned()));
+            line.name_after_file();
             place("file", &mut line.file).map_err(|fault| fault.within(index).within("line"))?;
         }
         for (index, output) in self.output.iter_mut().enumerate() {

@@ -20,6 +20,16 @@ impl SavedLine {
         Self { name: Some(name.clone()), points: Some(points), closed: *closed, file: None }
     }
 
+    /// Returns the lines of a file, with its name.
+    pub fn of_file(file: &Path) -> Self {
+        Self { name: name_of(file), file: Some(file.to_owned()), ..Self::default() }
+    }
+
+    /// Gives lines of a file its name, unless they have one.
+    pub(super) fn name_after_file(&mut self) {
+        self.name = self.name.take().or_else(|| name_of(self.file.as_deref()?));
+    }
+
     /// Returns the points, if they are in place.
     pub(super) fn check(&self) -> Result<Option<Vec<DVec2>>, KeyFault> {
         match (&self.points, &self.file) {
@@ -58,4 +68,9 @@ impl SavedLine {
         });
         Ok(numbered.collect())
     }
+}
+
+/// Returns the name of a file without its ending.
+fn name_of(file: &Path) -> Option<String> {
+    file.file_stem().map(|stem| stem.to_string_lossy().into_owned())
 }
