@@ -3,6 +3,7 @@
 mod arrangement;
 mod clip;
 mod exact;
+mod straight;
 
 use glam::DVec2;
 
@@ -10,6 +11,7 @@ use crate::geometry::{Lattice, LatticePoint};
 use arrangement::Arrangement;
 use clip::{ClippedPart, clip};
 pub(crate) use exact::{cross, crossing, is_near, lies_between, place};
+use straight::without_straight_corners;
 
 /// A line along which a mesh shall have edges: a breakwater, a thalweg, a dam.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,8 +28,9 @@ pub struct Line {
 /// several lines have in common is one segment.
 ///
 /// The segments do not depend on the order and the directions of the lines. A segment is at most a few
-/// lattice steps beside the line in the world: corners move to the nearest lattice point, corners within one
-/// step of each other become one, and a segment bends to a corner that is within one step of it.
+/// lattice steps beside the line in the world: corners within one step of the straight line between others
+/// are left out, the others move to the nearest lattice point, corners within one step of each other become
+/// one, and a segment bends to a corner that is within one step of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinesOnLattice {
     /// The lower end of each segment first, in ascending order. They meet in their ends only.
@@ -78,7 +81,8 @@ pub(crate) enum LinePart {
 impl LinesOnLattice {
     /// Puts lines on a lattice. Takes time n log n for n corners and crossings.
     pub fn of(lines: &[Line], lattice: &Lattice) -> Self {
-        let clipped: Vec<Vec<ClippedPart>> = lines.iter().map(|line| clip(line, lattice)).collect();
+        let clipped: Vec<Vec<ClippedPart>> =
+            lines.iter().map(|line| clip(&without_straight_corners(line, lattice), lattice)).collect();
         let ends = clipped.iter().flatten().filter_map(|part| match *part {
             ClippedPart::Within { ends, .. } => Some(ends),
             _ => None,
