@@ -65,11 +65,11 @@ pub use meshbrush_core::document::{
 pub use meshbrush_core::layers::{
     BandLayer, Combine, Coverage, CurveError, Decision, DepthError, DepthFit, DepthRule, DepthSizes, Depths,
     DiameterLimit, DistanceLayer, DistanceTo, FeatureSize, FineAt, FormulaLayer, InvalidLayer, Layer,
-    LayerId, LayerKind, LeastTarget, LevelCache, Mask, MedialAxis, MedialBall, MedialBalls, NoDepth,
-    NodeDepths, PaintChange, PaintLayer, PaintLayers, PositiveDepth, Quantity, RasterLayer, RasterReading,
-    RasterSource, RiskField, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, StraitCount, Straits,
-    Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource, Threat, ThreatError, ThreatLaw,
-    Threats, ValueCurve,
+    LayerId, LayerKind, LeastTarget, LevelCache, LineGaps, LineSizes, Mask, MedialAxis, MedialBall,
+    MedialBalls, NoDepth, NodeDepths, PaintChange, PaintLayer, PaintLayers, PositiveDepth, Quantity,
+    RasterLayer, RasterReading, RasterSource, RiskField, ShapeList, Shapes, ShapesError, SizeField,
+    SizeFieldSpec, StraitCount, Straits, Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource,
+    Threat, ThreatError, ThreatLaw, Threats, ValueCurve,
 };
 #[doc(inline)]
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};

@@ -167,6 +167,7 @@ fn word_of(kind: &LayerKind) -> &'static str {
         LayerKind::Depth(_) => "depth",
         LayerKind::Straits(_) => "straits",
         LayerKind::FeatureSize(_) => "featureSize",
+        LayerKind::Lines(_) => "lines",
         LayerKind::Surface(_) => "surface",
     }
 }

@@ -370,6 +370,10 @@ class Layers(Sequence[Layer]):
         keys = {"across": across, "width_from": width_from, "width_to": width_to, **common}
         return self._add("feature-size", keys, {})
 
+    def lines(self, *, across: float = 1, **common: Unpack[Common]) -> Layer:
+        """Adds triangles as small as edges along the lines of the document need: `across` of them across each gap."""
+        return self._add("lines", {"across": across, **common}, {})
+
     def paint(self, quantity: str = "diameter", **common: Unpack[Common]) -> Layer:
         """Adds a layer for strokes of "diameter", "risk" or "error". A stroke adds one where there is none."""
         return self._add("paint", {"quantity": quantity, **common}, {})

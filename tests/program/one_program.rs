@@ -12,8 +12,8 @@ use meshbrush_core::domain::{
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     BandLayer, Combine, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
-    Layer, LayerId, LayerKind, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer,
-    RasterReading, RasterSource, ShapeList, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm,
+    Layer, LayerId, LayerKind, LineSizes, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity,
+    RasterLayer, RasterReading, RasterSource, ShapeList, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm,
     SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
@@ -126,7 +126,7 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
 fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
     let at_zero = between(random, 0.05, 0.3);
     let (slope, range) = (between(random, 0.0, 0.6), [f64::INFINITY, 0.7][random.usize(..2)]);
-    match random.u8(..if has_outline { 16 } else { 14 }) {
+    match random.u8(..if has_outline { 17 } else { 15 }) {
         0 => LayerKind::constant(between(random, 0.1, 1.0)),
         1 => LayerKind::target(formula("0.1 + 0.2*abs(x - y)")),
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
@@ -159,7 +159,8 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             DistanceLayer { to, at_zero, slope, range }.into()
         }
         13 => LayerKind::Surface(surface(random)),
-        14 => {
+        14 => LineSizes { across: between(random, 0.3, 1.5), ..LineSizes::default() }.into(),
+        15 => {
             let (across, widths) = (between(random, 1.0, 5.0), [0.3, 1.5]);
             match random.bool() {
                 true => LayerKind::Straits(Straits { across, found: MedialBalls::unknown(widths) }),

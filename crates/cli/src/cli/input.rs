@@ -272,6 +272,7 @@ fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
         ("--depth", !typed.water.depth.is_empty()),
         ("--straits", typed.water.straits.is_some()),
         ("--feature-size", typed.water.feature_size.is_some()),
+        ("--line-sizes", typed.line_sizes.is_some()),
         ("--surface", !typed.surfaces.surface.is_empty()),
     ];
     let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) else { return Ok(()) };

@@ -9,8 +9,8 @@ use super::failure::Failure;
 use super::lengths::LengthWithUnit;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::layers::{
-    FeatureSizeKeys, FormulaKeys, GridKeys, RasterKeys, ReadingKeys, SavedKind, SavedLayer, SavedQuantity,
-    StraitKeys, ThreatKeys, WidthKeys,
+    FeatureSizeKeys, FormulaKeys, GridKeys, LineSizeKeys, RasterKeys, ReadingKeys, SavedKind, SavedLayer,
+    SavedQuantity, StraitKeys, ThreatKeys, WidthKeys,
 };
 use meshbrush_io::io::lengths::{GroundArea, GroundLength, METRES, SavedLength};
 use meshbrush_io::io::settings::{
@@ -166,6 +166,9 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
     let feature_size = feature_size.keys(typed)?;
     layers.extend(feature_size.map(|(option, widths)| (option, FeatureSizeKeys(widths).into())));
     layers.extend(typed.surfaces.layers());
+    layers.extend(
+        typed.line_sizes.map(|across| (format!("--line-sizes {across}"), LineSizeKeys { across }.into())),
+    );
     Ok(layers)
 }
 

@@ -39,7 +39,6 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
-            lines: _,
             pins: _,
             paths: _,
             // This one decides what is derived from the mesh.
@@ -50,6 +49,7 @@ impl Settings {
             domain,
             boundary,
             boundary_marks,
+            lines,
             spacing,
             transfer,
             layers,
@@ -61,7 +61,6 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
-            lines: _,
             pins: _,
             paths: _,
             cleaning: _,
@@ -70,6 +69,7 @@ impl Settings {
             domain: old_domain,
             boundary: old_boundary,
             boundary_marks: old_boundary_marks,
+            lines: old_lines,
             spacing: old_spacing,
             transfer: old_transfer,
             layers: old_layers,
@@ -90,7 +90,8 @@ impl Settings {
         let field = (transfer, layers, gradation) != (old_transfer, old_layers, old_gradation)
             || (outline && self.shows(Layer::follows_outline))
             // Names and types of pieces matter to distances alone.
-            || (boundary_marks != old_boundary_marks && self.shows(|layer| layer.kind.follows_pieces()));
+            || (boundary_marks != old_boundary_marks && self.shows(|layer| layer.kind.follows_pieces()))
+            || (lines != old_lines && self.shows(|layer| layer.kind.follows_lines()));
         self.change_on_grid(old, [outline, field], paint)
     }
 

@@ -32,7 +32,8 @@ pub struct Settings {
     pub cleaning: Cleaning,
     /// Names, types and splits of the boundary. The mesh depends on them through layers that follow pieces.
     pub boundary_marks: Arc<BoundaryMarks>,
-    /// Lines along which the derived mesh has edges. The mesh itself does not depend on them.
+    /// Lines along which the derived mesh has edges. The mesh itself depends on them through layers that
+    /// follow lines.
     pub lines: Arc<Vec<Line>>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
@@ -312,14 +313,16 @@ impl Settings {
         let mut layer = layer.clone();
         layer.kind.enter_field(&self.domain, &self.boundary_marks);
         layer.kind.follow_domain(&self.domain, &self.boundary_marks);
+        layer.kind.follow_lines(&self.lines, &self.domain);
         layer
     }
 
-    /// Finds the straits and the middle of the water of the domain for the layers that ask for them, and the
-    /// slopes of the ground for those that ask for slopes.
+    /// Finds the straits and the middle of the water of the domain for the layers that ask for them, the gaps
+    /// between lines, and the slopes of the ground for those that ask for slopes.
     pub(super) fn find_straits(&mut self) {
         for layer in &mut self.layers {
             layer.kind.follow_domain(&self.domain, &self.boundary_marks);
+            layer.kind.follow_lines(&self.lines, &self.domain);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -10,7 +11,7 @@ use super::extent::{Extent, ExtentContext};
 use super::risk_source::RiskSource;
 use super::value_change::{LayerEdit, ValueChange};
 use super::{LayerSlot, Quantity, RasterSource};
-use crate::domain::{BoundaryMarks, Domain};
+use crate::domain::{BoundaryMarks, Domain, Line};
 use crate::mesh::TargetChange;
 use crate::raster::TiledRaster;
 
@@ -106,6 +107,14 @@ pub trait LayerSource: Any + Debug + Send + Sync {
     fn is_of_outline(&self) -> bool {
         false
     }
+
+    /// Returns whether it changes with the lines of its document.
+    fn follows_lines(&self) -> bool {
+        false
+    }
+
+    /// Finds again what the settings have of the lines of their document.
+    fn follow_lines(&mut self, _lines: &Arc<Vec<Line>>, _domain: &Domain) {}
 
     /// Finds again what the settings have of the domain of their document.
     fn follow_domain(&mut self, _domain: &Domain, _marks: &BoundaryMarks) {}

@@ -19,6 +19,7 @@ mod layer;
 mod layer_source;
 mod least;
 mod lengths;
+mod line_gaps;
 mod mask;
 #[cfg(test)]
 mod model_tests;
@@ -70,6 +71,7 @@ pub use kinds::{
 pub use layer::Layer;
 pub use layer_source::LayerSource;
 pub use least::LeastTarget;
+pub use line_gaps::{LineGaps, LineSizes};
 pub use mask::{Coverage, Mask};
 pub(crate) use models::ModelDomain;
 pub use node_depths::{DepthFit, NoDepth, NodeDepths};

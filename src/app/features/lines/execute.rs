@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::entries::entries;
 use super::files::ROLES;
 use super::load::load_lines;
-use super::{DocumentLines, LINES, LinesCommand, marks};
+use super::{DocumentLines, LINE_SIZES, LINES, LinesCommand, marks};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::Line;
 use meshbrush_kit::kit::{Ctx, Feature, Row};
@@ -13,7 +13,14 @@ use meshbrush_mesh::text::Grouped;
 
 impl Feature for DocumentLines {
     type Command = LinesCommand;
-    const ROW: Row = Row { panels: &[&LINES], roles: &ROLES, marks: marks::paint, entries, ..Row::EMPTY };
+    const ROW: Row = Row {
+        panels: &[&LINES],
+        layer_kinds: &[&LINE_SIZES],
+        roles: &ROLES,
+        marks: marks::paint,
+        entries,
+        ..Row::EMPTY
+    };
 
     fn execute(&mut self, command: LinesCommand, ctx: &mut Ctx<'_>) {
         let before = || ctx.session.document().settings().lines.to_vec();

@@ -7,11 +7,13 @@ mod files;
 mod load;
 mod marks;
 mod panel;
+mod sizes;
 #[cfg(test)]
 mod tests;
 
 pub use command::LinesCommand;
 use panel::LINES;
+use sizes::LINE_SIZES;
 
 /// The window keeps nothing about lines: they are in the document.
 #[derive(Default)]

@@ -60,6 +60,13 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE")]
     pub lines: Vec<PathBuf>,
 
+    /// Triangles as small as the lines need: this many across the gap between two parts of lines, down to
+    /// --h-min
+    ///
+    /// With 1, nearly all parts of lines get edges.
+    #[arg(long, value_name = "N", requires = "lines", requires = "h_min", allow_hyphen_values = true)]
+    pub line_sizes: Option<f64>,
+
     /// How the mesh meets the outline of a region, or the line where the formula of --inside becomes 0
     ///
     /// [default: outline]

@@ -6,7 +6,7 @@ use crate::field::{Bounds, Formula, TaylorModel, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::models::{self, BoundedModel, ModelDomain, ModelId};
 use crate::layers::near_segments::near;
-use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
+use crate::layers::{FeatureSize, LineSizes, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
@@ -40,6 +40,8 @@ pub enum Function {
     Straits(Straits, f64),
     /// A part of the width of the water, by the greatest scale.
     FeatureSize(FeatureSize, f64),
+    /// What lines need, by the greatest scale.
+    Lines(LineSizes, f64),
 }
 
 /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
@@ -133,6 +135,7 @@ impl Function {
             Self::Distance { shapes, profile } => profile.at(shapes.distance(point)),
             Self::Straits(straits, scale) => straits.diameter(straits.found.width_at(point)) / scale,
             Self::FeatureSize(size, scale) => size.diameter_at(point) / scale,
+            Self::Lines(sizes, scale) => sizes.diameter_at(point) / scale,
         }
     }
 
@@ -146,10 +149,8 @@ impl Function {
                 let [least, greatest] = [least, greatest].map(|width| straits.diameter(width) / scale);
                 Bounds { least, greatest, valid }
             }
-            Self::FeatureSize(size, scale) => {
-                let Bounds { least, greatest, valid } = size.bounds(rect);
-                Bounds { least: least / scale, greatest: greatest / scale, valid }
-            }
+            Self::FeatureSize(size, scale) => divided(size.bounds(rect), *scale),
+            Self::Lines(sizes, scale) => divided(sizes.bounds(rect), *scale),
         }
     }
 
@@ -160,7 +161,7 @@ impl Function {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
             Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
             Self::Distance { .. } => true,
-            Self::Straits(..) | Self::FeatureSize(..) => false,
+            Self::Straits(..) | Self::FeatureSize(..) | Self::Lines(..) => false,
         }
     }
 
@@ -168,7 +169,7 @@ impl Function {
         match self {
             Self::Formula(formula) => BoundedModel::of(formula.model(place.coordinates)),
             Self::Threats(threats) => threats.bounded_model(place),
-            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => {
+            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) | Self::Lines(..) => {
                 BoundedModel::of(TaylorModel::UNKNOWN)
             }
         }
@@ -193,7 +194,7 @@ impl Function {
                 bounds.contains(extent.min) && bounds.contains(extent.max)
             }
             Self::Straits(straits, _) => straits.found.are_in(bounds),
-            Self::Formula(_) | Self::Threats(_) | Self::FeatureSize(..) => false,
+            Self::Formula(_) | Self::Threats(_) | Self::FeatureSize(..) | Self::Lines(..) => false,
         }
     }
 
@@ -206,7 +207,7 @@ impl Function {
                 let diameter = |width| (straits.diameter(width) / scale).max(carried.h_min);
                 return straits.found.carried_to(point, carried.slope, limit, diameter);
             }
-            Self::Formula(_) | Self::Threats(_) | Self::FeatureSize(..) => return None,
+            Self::Formula(_) | Self::Threats(_) | Self::FeatureSize(..) | Self::Lines(..) => return None,
         };
         let graded = profile.graded?;
         let nearest = shapes.nearest(point);
@@ -229,10 +230,15 @@ impl Function {
             }
             Self::Distance { profile, .. } => Slopes::up_to(profile.steepness()),
             Self::FeatureSize(size, scale) => Slopes::up_to(size.steepness() / scale),
+            Self::Lines(sizes, scale) => Slopes::up_to(sizes.steepness() / scale),
             // The width jumps at the rims of the discs.
             Self::Straits(..) => Slopes::UNKNOWN,
         }
     }
+}
+
+fn divided(Bounds { least, greatest, valid }: Bounds, scale: f64) -> Bounds {
+    Bounds { least: least / scale, greatest: greatest / scale, valid }
 }
 
 impl Analytic {

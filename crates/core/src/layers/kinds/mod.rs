@@ -9,6 +9,7 @@ mod depth;
 mod distance;
 mod feature_size;
 mod formula;
+mod lines;
 mod paint;
 mod raster;
 mod straits;
@@ -26,7 +27,7 @@ use std::ops::{Deref, DerefMut};
 
 use glam::DVec2;
 
-use super::{Depths, FeatureSize, LayerSource, Quantity, Straits, Surface, Threats};
+use super::{Depths, FeatureSize, LayerSource, LineSizes, Quantity, Straits, Surface, Threats};
 use crate::field::Formula;
 use crate::raster::TiledRaster;
 
@@ -106,6 +107,8 @@ layer_kinds! {
         Straits(Straits),
         /// A number of triangles across the water, which grow with the way from it.
         FeatureSize(FeatureSize),
+        /// What lines need, so that the mesh can have edges along them.
+        Lines(LineSizes),
         /// A surface that the mesh is to be close to. It asks for no diameter.
         Surface(Surface),
     }

@@ -12,7 +12,7 @@ use judge::{edges, judge, smallest_angle, smallest_feature};
 use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, Line};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, SizeFieldSpec};
+use meshbrush_core::layers::{Layer, LayerKind, LineGaps, LineSizes, PaintLayers, SizeFieldSpec};
 use meshbrush_core::outline::{DerivedMesh, LineProblem, MeshDerivation};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Limits, Progress, Updater};
@@ -252,6 +252,10 @@ fn lines_in_a_domain_by_formula_end_at_its_stairs() {
 }
 
 fn built_by_area(target: f64) -> BuiltMesh {
+    built_by(LayerKind::constant(target))
+}
+
+fn built_by(layer: impl Into<LayerKind>) -> BuiltMesh {
     let domain = square();
     let limits = Limits::default();
     let mut builder = MeshBuilder::new(MeshSpec {
@@ -260,8 +264,8 @@ fn built_by_area(target: f64) -> BuiltMesh {
         boundary: BoundaryTreatment::Report,
         lines: Default::default(),
         field: SizeFieldSpec {
-            layers: Layer::stack([LayerKind::constant(target)]),
-            transfer: Transfer::between(f64::MIN_POSITIVE, f64::MAX),
+            layers: Layer::stack([layer.into()]),
+            transfer: Transfer::between(1e-3, f64::MAX),
             unasked: f64::MAX,
             outline: None,
             gradation: None,
@@ -356,4 +360,29 @@ fn more_corners_than_the_mesh_resolves_are_listed() {
     let fit = &derived.line_fits()[0];
     assert!(fit.length_on_edges < 0.1 * fit.length && !fit.unresolved.is_empty(), "{fit:?}");
     assert!(fit.unresolved.iter().all(|place| place.diameter.is_some_and(|d| d < 1e-3)), "{fit:?}");
+}
+
+/// A document whose layer asks for what its lines need, in a mesh that is coarse elsewhere.
+#[test]
+fn a_layer_of_lines_makes_the_mesh_fine_enough() {
+    let (mut sums, mut counts) = ([0.0; 2], [0; 2]);
+    for seed in seeds(12) {
+        let random = &mut Rng::with_seed(seed);
+        let lines = lines(random);
+        let name = format!("seed {seed}");
+        let built = built_by(LineSizes {
+            gaps: LineGaps::of(&Arc::new(lines.clone()), &square()),
+            ..LineSizes::default()
+        });
+        let [on_edges, inside] = check(&built, &lines, bound(&lines), &name);
+        sums = [sums[0] + on_edges, sums[1] + inside];
+        counts = [counts[0] + 1, counts[1] + built.mesh.triangle_count()];
+    }
+    if prints_table() {
+        eprintln!(
+            "{} sets of lines, {} of {} on edges, {} triangles",
+            counts[0], sums[0], sums[1], counts[1]
+        );
+    }
+    assert!(sums[0] > 0.99 * sums[1], "{sums:?}");
 }

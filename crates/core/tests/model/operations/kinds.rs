@@ -7,7 +7,7 @@ use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     BandLayer, DepthRule, DepthSizes, Depths, DistanceLayer, DistanceTo, FeatureSize, FormulaLayer,
-    LayerKind, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer, RasterReading,
+    LayerKind, LineSizes, Mask, MedialAxis, MedialBalls, PositiveDepth, Quantity, RasterLayer, RasterReading,
     RasterSource, ShapeList, Shapes, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat,
     ThreatLaw, Threats, ValueCurve,
 };
@@ -74,6 +74,9 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         6 | 7 => LayerKind::paint([Quantity::Risk, Quantity::Diameter, Quantity::Error][choices.below(3)]),
         8..11 => raster(choices, diameter),
         11..13 => threats(choices, scale),
+        13 if choices.below(3) == 0 => {
+            LineSizes { across: 0.2 + choices.share(), ..LineSizes::default() }.into()
+        }
         13 => {
             let between = [4.0 * diameter, 8.0 * diameter];
             match choices.below(2) {
@@ -278,6 +281,7 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
         },
         LayerKind::Straits(straits) => straits.across = (straits.across / factor).clamp(1.0, 4.0),
         LayerKind::FeatureSize(size) => size.across = (size.across / factor).clamp(1.0, 4.0),
+        LayerKind::Lines(sizes) => sizes.across = (sizes.across / factor).clamp(0.2, 2.0),
         LayerKind::Surface(Surface { goal: SurfaceGoal::Within(error), .. }) => *error *= factor.max(0.9),
         LayerKind::Surface(Surface { goal: SurfaceGoal::AtMost(count), .. }) => {
             *count = (factor * *count as f64) as usize + 1;

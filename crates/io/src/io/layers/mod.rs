@@ -28,8 +28,8 @@ pub use key_group::{KeyGroup, TableEntries};
 pub use kinds::{
     BandKeys, BoundaryKeys, CorridorKeys, CourantKeys, DatumKeys, DepthKeys, DepthRangeKeys, DepthSizeKeys,
     DistanceKeys, FeatureSizeKeys, FormulaKeys, GoalKeys, GridKeys, GrowthKeys, KindKeys, LayerKeys,
-    PaintKeys, RasterKeys, ReadingKeys, SavedKind, SavedKnot, ShapeKeys, SlopeKeys, StepKeys, StraitKeys,
-    StripKeys, SurfaceKeys, TargetKeys, ThreatKeys, WavelengthKeys, WidthKeys,
+    LineSizeKeys, PaintKeys, RasterKeys, ReadingKeys, SavedKind, SavedKnot, ShapeKeys, SlopeKeys, StepKeys,
+    StraitKeys, StripKeys, SurfaceKeys, TargetKeys, ThreatKeys, WavelengthKeys, WidthKeys,
 };
 pub use quantity_grid::QuantityGrid;
 pub use rasters::{LoadedRaster, OwnPlace, RasterError, RasterFile, RasterFrame, RasterLoader};

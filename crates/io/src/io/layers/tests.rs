@@ -180,6 +180,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             "width_to: 1 cannot be used",
         ),
         (r#"{ "kind": "straits", "across": 0, "width_from": 1, "width_to": 2 }"#, "across: 0 cannot be used"),
+        (r#"{ "kind": "lines", "across": 0 }"#, "across: 0 cannot be used"),
         (
             r#"{ "kind": "straits", "across": 4, "width_from": 3, "width_to": 2 }"#,
             "width_to: 2 cannot be used",
@@ -204,7 +205,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 }
 
 /// A text of each kind, with all keys that it can have at a time.
-const FULL: [&str; 14] = [
+const FULL: [&str; 15] = [
     r#"{"kind":"paint","quantity":"risk","file":"a.meshbrush","layer":"Storm"}"#,
     r#"{"kind":"formula","quantity":"risk","formula":"x"}"#,
     r#"{"kind":"raster","file":"a.asc","bounds":[0.0,0.0,1.0,2.0],"as":"risk"}"#,
@@ -218,6 +219,7 @@ const FULL: [&str; 14] = [
     r#"{"kind":"depth","file":"a.asc","size":"courant","time_step":1.0,"courant":0.7}"#,
     r#"{"kind":"straits","across":3.0,"width_from":1.0,"width_to":2.0}"#,
     r#"{"kind":"feature-size","across":3.0,"width_from":1.0,"width_to":2.0}"#,
+    r#"{"kind":"lines","across":2.0}"#,
     r#"{"kind":"surface","formula":"x","within":0.1,"norm":"l2"}"#,
 ];
 

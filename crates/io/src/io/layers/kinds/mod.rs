@@ -7,6 +7,7 @@ mod distance;
 mod formula;
 mod grid;
 mod kind_keys;
+mod lines;
 mod paint;
 mod raster;
 mod surface;
@@ -28,6 +29,7 @@ pub use formula::FormulaKeys;
 pub use grid::GridKeys;
 pub use kind_keys::KindKeys;
 use kind_keys::LoadKind;
+pub use lines::LineSizeKeys;
 pub use paint::PaintKeys;
 pub use raster::{RasterKeys, ReadingKeys, SavedKnot};
 pub use surface::{GoalKeys, SurfaceKeys};
@@ -146,6 +148,8 @@ saved_kinds! {
     Straits(StraitKeys),
     /// Triangles across the water.
     FeatureSize(FeatureSizeKeys),
+    /// What lines need.
+    Lines(LineSizeKeys),
     /// A surface that the mesh is to be close to.
     Surface(SurfaceKeys),
 }
@@ -203,6 +207,7 @@ impl LayerKeys {
             LayerKind::Surface(surface) => SurfaceKeys::of(surface).into(),
             LayerKind::Straits(straits) => StraitKeys::of(straits).into(),
             LayerKind::FeatureSize(feature_size) => FeatureSizeKeys::of(feature_size).into(),
+            LayerKind::Lines(sizes) => LineSizeKeys::of(sizes).into(),
         }
     }
 }
