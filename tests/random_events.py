@@ -28,6 +28,7 @@ SIZE = (1440, 900)
 DOCUMENTS = ["Radar threats", "Aegean Sea", "Layers on a terrain", "Threats and a path"]
 BURST = 12  # events
 PATIENCE_S = 60
+MEMORY_RETURNED_S = 5  # after the window came to rest
 MOST_MEMORY_BYTES = 12 * 2**30
 NOTED_GROWTH_BYTES = 300 * 2**20
 
@@ -223,6 +224,7 @@ def torment(window, rng, document, seconds):
         window.xdotool("key", "Escape", "sleep", 0.2)
     window.xdotool("mousemove", SIZE[0] // 2, SIZE[1] // 2, "sleep", 1)
     window.settle()
+    time.sleep(MEMORY_RETURNED_S)
     if window.message.startswith("failed"):
         window.fail("a message is left that Escape does not dismiss")
     print(f"{document:20} {events:6} events, longest wait {longest:.1f} s, at most {window.most_triangles} triangles, "

@@ -29,6 +29,7 @@ mod parts;
 mod replacing;
 mod screenshots;
 mod software_window;
+mod spare_memory;
 #[cfg(test)]
 mod tests;
 #[cfg(target_family = "wasm")]
@@ -64,6 +65,7 @@ use meshbrush_kit::kit::tools::Tools;
 use meshbrush_kit::kit::view::View;
 use meshbrush_kit::kit::{Features, Keymap, all_tools};
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
+use spare_memory::SpareMemory;
 #[cfg(target_family = "wasm")]
 use web as host;
 
@@ -112,6 +114,8 @@ pub struct App {
     background: Background,
     /// Absent in tests and screenshots.
     journal: Option<JournalKeeper>,
+    /// Absent in tests and screenshots.
+    spare_memory: Option<SpareMemory>,
     /// Commands for the next frame.
     commands: Vec<Command>,
     /// Whether the file that the program was started with is being read.
@@ -148,6 +152,7 @@ impl App {
         }
         app.dialogs.use_system();
         app.keep_in(cc);
+        app.spare_memory = Some(SpareMemory::default());
         Ok(app)
     }
 
@@ -194,6 +199,7 @@ impl App {
             background: Background::new(ctx, &jobs),
             jobs,
             journal: None,
+            spare_memory: None,
             stored_brush: None,
             export_figures: ExportMeasurer::default(),
             commands: Vec::new(),
@@ -280,6 +286,9 @@ fn set_up_gpu(wgpu: &mut egui_wgpu::WgpuConfiguration) {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
         self.advance(ctx);
+        if let Some(spare_memory) = &mut self.spare_memory {
+            spare_memory.note_frame(ctx, &self.jobs);
+        }
         if let Some(storage) = frame.storage_mut().filter(|_| !ctx.input(|input| input.pointer.any_down())) {
             self.store_brush(storage);
         }
