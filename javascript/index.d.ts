@@ -156,6 +156,8 @@ export interface Limits {
   /** The parts that stay: a number is the least share of the area. */
   parts?: "all" | "largest" | number;
   keepPinches?: boolean;
+  /** Angles of at least 25° along the outline where it allows them; no triangle with all nodes on it. */
+  improveBoundary?: boolean;
   rule?: "area" | "vertex";
   maxTriangles?: number;
   /** The deepest level: triangles of it stay, also where they are larger than their target. */

@@ -18,7 +18,7 @@ export default function init(source) {
 
 const OPTIONS = [
   ...["name", "domain", "spacing", "hMin", "hMax", "hRisk", "shape", "gradation", "boundary", "boundaryDiameter", "parts"],
-  ...["keepPinches", "rule", "maxTriangles", "maxLevel", "maxMemory", "size", "layers"],
+  ...["keepPinches", "improveBoundary", "rule", "maxTriangles", "maxLevel", "maxMemory", "size", "layers"],
 ];
 /** Options that are about the domain and the layers, which have methods of their own. */
 const NOT_UPDATED = ["name", "domain", "size", "layers"];

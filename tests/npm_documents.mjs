@@ -246,6 +246,7 @@ export function randomDocument(seed) {
     boundaryDiameter: place === "polygons" && boundary !== "report" ? choices.maybe(() => choices.number(0.1, 0.3)) : undefined,
     parts: choices.pick([undefined, "all", "largest", 0.05, 0.3]),
     keepPinches: choices.maybe(() => choices.is(), 0.3),
+    improveBoundary: choices.maybe(() => choices.is(), 0.3),
   };
   const ofMesh = { spacing: choices.maybe(() => choices.number(0.4, 1)), rule: choices.pick([undefined, "area", "vertex"]), maxLevel: choices.maybe(() => Math.round(choices.number(0, 9)), 0.2) };
   const limits = {

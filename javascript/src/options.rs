@@ -130,6 +130,7 @@ const DEEPEST: usize = 255;
 pub struct Kept {
     parts: Option<KeptParts>,
     pinches: Option<bool>,
+    improves: Option<bool>,
 }
 
 impl Kept {
@@ -138,12 +139,17 @@ impl Kept {
         meshbrush_mesh::mesh::Cleaning {
             parts: self.parts.unwrap_or(default.parts),
             keeps_pinches: self.pinches.unwrap_or(default.keeps_pinches),
+            improves_boundary: self.improves.unwrap_or(default.improves_boundary),
         }
     }
 
     /// Returns this with what later options say.
     pub fn and(self, later: Self) -> Self {
-        Self { parts: later.parts.or(self.parts), pinches: later.pinches.or(self.pinches) }
+        Self {
+            parts: later.parts.or(self.parts),
+            pinches: later.pinches.or(self.pinches),
+            improves: later.improves.or(self.improves),
+        }
     }
 }
 
@@ -153,6 +159,7 @@ impl Kept {
 /// Fails for values that cannot be used.
 pub fn kept(options: Table<'_>) -> Result<Kept, JsError> {
     let pinches = options.flag("keepPinches");
+    let improves = options.flag("improveBoundary");
     let parts = match options.get("parts") {
         Some(value) if value.as_f64().is_some() => options
             .number_where(
@@ -163,7 +170,7 @@ pub fn kept(options: Table<'_>) -> Result<Kept, JsError> {
             .map(KeptParts::Share),
         _ => options.word("parts", &[("all", KeptParts::All), ("largest", KeptParts::Largest)])?,
     };
-    Ok(Kept { parts, pinches })
+    Ok(Kept { parts, pinches, improves })
 }
 
 fn domain_of(domain: Table<'_>) -> Result<(Domain, BoundaryMarks), JsError> {

@@ -26,7 +26,7 @@ from .window import View, edited, shown
 #: The options by the table of a recipe that has them.
 _TABLES = {
     "domain": (
-        *("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits", "open"),
+        *("boundary", "boundary_diameter", "parts", "keep_pinches", "improve_boundary", "unit", "crs", "projection", "splits", "open"),
         *("contour", "positive", "smallest_island", "smallest_inlet", "outside_nodata"),
     ),
     "mesh": ("spacing", "rule", "max_triangles", "max_level", "max_memory"),
@@ -114,6 +114,7 @@ class Document:
         boundary_diameter: Length | None = None,
         parts: str | float | None = None,
         keep_pinches: bool | None = None,
+        improve_boundary: bool | None = None,
         unit: str | None = None,
         crs: str | None = None,
         projection: str | None = None,

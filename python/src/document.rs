@@ -221,6 +221,7 @@ impl Document {
             let parts = &mut state.parts.domain;
             parts.parts = saved.domain.parts.or(parts.parts);
             parts.keep_pinches = saved.domain.keep_pinches.or(parts.keep_pinches);
+            parts.improve_boundary = saved.domain.improve_boundary.or(parts.improve_boundary);
             Ok(())
         })
     }

@@ -306,7 +306,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         pins: Arc::new((0..pins).map(|_| point(random)).collect()),
         paths: Arc::new(paths(random)),
         boundary,
-        cleaning: Cleaning { parts, keeps_pinches: random.bool() },
+        cleaning: Cleaning { parts, keeps_pinches: random.bool(), improves_boundary: random.bool() },
         spacing,
         transfer,
         layers,

@@ -60,6 +60,7 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             boundary_diameter: value(&typed.boundary_diameter),
             parts: typed.parts.as_deref().map(parts).transpose()?,
             keep_pinches: typed.keep_pinches.then_some(true),
+            improve_boundary: typed.improve_boundary.then_some(true),
             ..SavedDomain::default()
         },
         mesh: SavedMesh {
@@ -165,10 +166,10 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
     layers.extend(straits.map(|(option, widths)| (option, StraitKeys(widths).into())));
     let feature_size = feature_size.keys(typed)?;
     layers.extend(feature_size.map(|(option, widths)| (option, FeatureSizeKeys(widths).into())));
-    layers.extend(typed.surfaces.layers());
     layers.extend(
         typed.line_sizes.map(|across| (format!("--line-sizes {across}"), LineSizeKeys { across }.into())),
     );
+    layers.extend(typed.surfaces.layers());
     Ok(layers)
 }
 

@@ -4,9 +4,10 @@ use glam::DVec2;
 
 use crate::geometry::LatticePoint;
 
-/// The cotangents of 5°, 20° and 30°.
+/// The cotangents of 5°, 20°, 25° and 30°.
 pub(super) const COT_5: f64 = 11.430_052_302_761_343;
 pub(super) const COT_20: f64 = 2.747_477_419_454_622;
+pub(super) const COT_25: f64 = 2.144_506_920_509_558_6;
 pub(super) const COT_30: f64 = 1.732_050_807_568_877_2;
 /// The cotangent of 18.4°.
 const COT_18_4: f64 = 3.006_110_903_495_366_6;

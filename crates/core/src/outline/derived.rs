@@ -3,6 +3,7 @@ use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
 use super::lengths::EdgeTargets;
 use super::lines::{LineFit, fit_lines};
+use super::quality::with_better_boundary;
 use super::stages::{DerivationAction, Watch};
 use crate::domain::DomainOnLattice;
 use crate::geometry::LatticePoint;
@@ -80,6 +81,9 @@ impl DerivedMesh {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
             None => (MeshPatch::default(), None, 0.0),
         };
+        if let Some(region) = domain.region_on_outline().filter(|_| cleaning.improves_boundary) {
+            patch = with_better_boundary(mesh, &patch, region, targets);
+        }
         let mut line_fits = Vec::new();
         if let Some(lines) = domain.lines() {
             let fitted = fit_lines(mesh, &patch, lines, domain.region_on_outline(), targets);

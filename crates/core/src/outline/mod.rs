@@ -27,6 +27,9 @@
 //! an edge. Features thinner than the triangles vanish or merge. A triangle needs at least 16 lattice steps
 //! along its legs.
 //!
+//! Where that is asked for, triangles with small angles, between nodes of the boundary or crowded around a
+//! node are changed at last ([`quality`]).
+//!
 //! Lengths. No edge is longer than h̄ at any point of the triangles beside it ([`EdgeTargets`]), as no edge
 //! of the mesh is: what lies in a triangle of the mesh that meets its target meets it, too. In triangles of
 //! the mesh that are larger than their target, edges may have any length.
@@ -42,7 +45,9 @@ mod corners;
 mod guard;
 mod lengths;
 mod line;
+mod local;
 mod lines;
+mod quality;
 mod patchwork;
 mod division;
 mod smooth;

@@ -147,7 +147,8 @@ fn parts_are_kept_by_their_share_of_the_area() {
         let areas = part_areas(&shapes(&before_cleaning.extract()));
         let whole: i64 = areas.iter().sum();
         for share in [0.0, 0.02, 0.2, 1.0] {
-            let cleaning = Cleaning { parts: KeptParts::Share(share), keeps_pinches: true };
+            let cleaning =
+                Cleaning { parts: KeptParts::Share(share), keeps_pinches: true, improves_boundary: false };
             let (extract, removed) = cleaned(&before_cleaning, &cleaning);
             let large = areas.partition_point(|&area| (area as f64) < share * whole as f64);
             // The largest part stays in any case.

@@ -2,6 +2,7 @@
 
 mod blocks;
 mod boundary;
+mod boundary_quality;
 mod certificate;
 mod cleaning;
 #[path = "../../../../tests/shared/closure/mod.rs"]

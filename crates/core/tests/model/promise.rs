@@ -53,8 +53,8 @@ fn distance(p: DVec2, corners: [DVec2; 3]) -> f64 {
 }
 
 /// A coast with a target, in the plane or on the Earth.
-struct Coast {
-    settings: Settings,
+pub struct Coast {
+    pub settings: Settings,
     target: RadialTarget,
 }
 
@@ -66,7 +66,7 @@ const PLANES: [(&str, DVec2, f64); 3] = [
 ];
 
 impl Coast {
-    fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         let mut random = Rng::with_seed(seed);
         let mut polygons = random_coast(&mut random);
         let mut domain = Domain::of_polygons(&polygons).unwrap();
@@ -96,23 +96,23 @@ impl Coast {
 
 /// What a checker finds.
 #[derive(Clone, Copy, Debug, Default)]
-struct Found {
-    triangles: usize,
+pub struct Found {
+    pub triangles: usize,
     /// Triangles with an edge that is longer than the least target in them.
-    over: usize,
+    pub over: usize,
     /// The greatest ratio of an edge to the least target in its triangle.
     worst: f64,
-    smallest_angle: f64,
-    most_at_node: usize,
-    boundary_nodes: usize,
-    on_outline: usize,
+    pub smallest_angle: f64,
+    pub most_at_node: usize,
+    pub boundary_nodes: usize,
+    pub on_outline: usize,
     /// The largest distance of the other nodes of the boundary from the outline, in world units.
     farthest: f64,
 }
 
 impl Found {
     /// Returns what was found in both meshes. There may be none in the first.
-    fn and(self, other: Self) -> Self {
+    pub fn and(self, other: Self) -> Self {
         let angle = if self.triangles == 0 { 180.0 } else { self.smallest_angle };
         Self {
             triangles: self.triangles + other.triangles,
@@ -127,7 +127,7 @@ impl Found {
     }
 }
 
-fn check(extract: &Extract, fit: OutlineFit, coast: &Coast) -> Found {
+pub fn check(extract: &Extract, fit: OutlineFit, coast: &Coast) -> Found {
     let nodes: Vec<DVec2> = extract.world_nodes().collect();
     let plane = coast.settings.domain.projection.map(EarthPlane::Projected);
     let length = |a: DVec2, b: DVec2| plane.map_or(a.distance(b), |plane| plane.length(&[a, b]));

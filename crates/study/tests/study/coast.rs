@@ -44,7 +44,7 @@ fn built(seed: u64) -> (BuiltMesh, Cleaning) {
         _ if boundary == BoundaryTreatment::Report => Cleaning::NONE,
         0 => Cleaning::NONE,
         1 => Cleaning::FOR_SOLVERS,
-        _ => Cleaning { parts: KeptParts::Share(0.05), keeps_pinches: true },
+        _ => Cleaning { parts: KeptParts::Share(0.05), keeps_pinches: true, ..Cleaning::NONE },
     };
     let field = SizeFieldSpec {
         layers: Layer::stack([LayerKind::target(Formula::parse(&format!("{spacing:?}")).unwrap())]),

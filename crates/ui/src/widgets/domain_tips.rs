@@ -21,6 +21,10 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
         "Keep pinched nodes",
         "Keeps triangles that meet others only in a node; most solvers do not accept them.",
     ),
+    (
+        "Improve triangles along it",
+        "Slides nodes along the outline and adds some inside: angles of at least 25° where it allows them, no triangle with all nodes on it, at most 8 triangles at a node.",
+    ),
     ("Unit", "What coordinates and lengths mean; numbers are not converted."),
     ("Left", "Smallest x of the domain, in the unit of the document."),
     ("Bottom", "Smallest y of the domain, in the unit of the document."),

@@ -135,6 +135,12 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
         }
         end_gesture_when_released(&response, commands);
     }
+    if matches!(boundary, BoundaryTreatment::OnOutline { .. }) {
+        let mut improves_boundary = cleaning.improves_boundary;
+        if toggle_row(ui, "Improve triangles along it", &mut improves_boundary).changed() {
+            set_once(Setting::Cleaning(Cleaning { improves_boundary, ..cleaning }), commands);
+        }
+    }
     if matches!(boundary, BoundaryTreatment::Fitted { .. }) {
         let mut keeps_pinches = cleaning.keeps_pinches;
         if toggle_row(ui, "Keep pinched nodes", &mut keeps_pinches).changed() {

@@ -91,6 +91,14 @@ pub struct InputArguments {
     #[arg(long)]
     pub keep_pinches: bool,
 
+    /// Improve triangles along the outline: angles of at least 25° where the outline allows it, no triangle with
+    /// all three nodes on the boundary, and at most 8 triangles at a node
+    ///
+    /// Nodes slide along the outline, edges flip, and nodes are put between those of the boundary. What
+    /// remains is in the report.
+    #[arg(long)]
+    pub improve_boundary: bool,
+
     /// Longest side of a coarse cell [default: a twentieth of the domain's longer side]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub spacing: Option<Length>,

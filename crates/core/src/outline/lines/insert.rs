@@ -1,10 +1,10 @@
 //! Puts lines into triangles: their corners become nodes, and their segments edges.
 
-use super::local::{LineNodeState, LocalMesh};
 use super::stops::{Stop, StopKind};
 use crate::domain::{cross, crossing, is_near, lies_between};
 use crate::geometry::LatticePoint;
 use crate::outline::angles::Angles;
+use crate::outline::local::{LineNodeState, LocalMesh};
 use crate::outline::triangulation::NONE;
 
 /// The cotangent of the smallest angle that a move may leave for the steps that follow: 5°.

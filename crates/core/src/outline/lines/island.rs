@@ -5,9 +5,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::improve::Improver;
 use super::insert::Inserter;
-use super::local::{LineNodeState, LocalMesh};
 use super::sharp::SharpNodes;
 use super::stops::{CutSegment, Stop, StopKind, meets, rect_around};
 use crate::domain::{is_near, lies_between, place};
@@ -15,6 +13,8 @@ use crate::geometry::{BoxTree, LatticePoint, Rect, nearest_on_segment};
 use crate::mesh::Mesh;
 use crate::outline::angles::Angles;
 use crate::outline::lengths::{LengthAnswers, LengthRule};
+use crate::outline::local::Improver;
+use crate::outline::local::{LineNodeState, LocalMesh};
 
 /// Attempts before everything that is left near a small angle is left out.
 const ATTEMPTS: usize = 400;
@@ -125,6 +125,7 @@ impl<'a> Island<'a> {
             answers: shared.lengths.answers(),
             extent: shared.extent,
             segments: shared.segments,
+            slides_along: None,
         };
         improver.run(local);
         for _ in 0..HALVINGS {

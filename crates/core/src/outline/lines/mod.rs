@@ -1,10 +1,10 @@
 //! Edges along lines inside the domain.
 //!
 //! This works on the mesh with its nodes on the outline, and changes only triangles around the lines
-//! ([`local`]). First, corners, ends and crossings of the lines become nodes; then each straight segment
+//! ([`local`](super::local)). First, corners, ends and crossings of the lines become nodes; then each straight segment
 //! between two of them is followed from triangle to triangle. Where it crosses an edge, the nearer end moves
 //! there, or the edge is flipped or gets a node ([`insert`]). Then edges are flipped, nodes shifted and nodes
-//! that are too near to each other joined, as far as that makes the smallest angles larger ([`improve`]);
+//! that are too near to each other joined, as far as that makes the smallest angles larger ([`Improver`](super::local::Improver));
 //! nodes on a line stay on it.
 //!
 //! Where an angle is still too small or an edge longer than its target, the stretch of a line there is *left
@@ -22,12 +22,8 @@
 //! connected set of triangles around lines is an island; all threads work on different islands.
 
 mod edges;
-mod improve;
 mod insert;
 mod island;
-mod local;
-mod patched;
-mod replaced;
 mod report;
 mod sharp;
 mod stops;
@@ -38,14 +34,12 @@ use rayon::prelude::*;
 
 use super::angles::Angles;
 use super::lengths::{EdgeTargets, LengthRule};
+use super::local::{LocalMesh, PatchedMesh, PatchedTriangle, Replaced, rings_around};
 use crate::domain::{LinesOnLattice, RegionOnLattice};
 use crate::geometry::{BoxTree, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch};
 pub use edges::{LineEdge, LineEdges};
 use island::{Island, Shared};
-use local::LocalMesh;
-use patched::{PatchedMesh, PatchedTriangle};
-use replaced::Replaced;
 pub use report::{LineFit, LineProblem, UnresolvedPlace};
 use sharp::SharpNodes;
 use stops::{CutSegment, TriangleIndex, meets, rect_around};
@@ -124,17 +118,7 @@ fn around(
         });
         found.is_break()
     };
-    let mut triangles = whole.triangles(is_crossed);
-    let mut is_marked = vec![false; whole.points.len()];
-    let mut is_complete = is_marked.clone();
-    for _ in 0..RINGS {
-        for v in triangles.iter().flat_map(|t| t.corners) {
-            is_marked[v.index()] = true;
-        }
-        triangles = whole.triangles(|t| t.corners.iter().any(|v| is_marked[v.index()]));
-        is_complete.clone_from(&is_marked);
-    }
-    (triangles, is_complete)
+    rings_around(whole, RINGS, is_crossed)
 }
 
 /// Cuts the segments that touch triangles, in their order.

@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::island::Island;
-use super::local::LocalMesh;
 use super::stops::{Stop, StopKind};
 use crate::domain::{LineOnLattice, LinePart, LinesOnLattice, cross, place};
 use crate::geometry::{BoxTree, Lattice, LatticePoint, NumberMap, Rect, nearest_on_segment};
 use crate::mesh::{Extract, Mesh};
+use crate::outline::local::LocalMesh;
 
 /// Shares of a segment that differ by less than this many lattice steps are the same.
 const SAME_STEPS: f64 = 4.0;

@@ -1,8 +1,8 @@
 //! Nodes at which lines, or a line and the boundary, meet at a small angle.
 
-use super::local::LocalMesh;
 use crate::geometry::NumberMap;
 use crate::outline::angles::Angles;
+use crate::outline::local::LocalMesh;
 use crate::outline::triangulation::NONE;
 
 /// Of the angle between two lines, the share that an angle of a triangle at their node has at least.

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::local::LocalMesh;
 use crate::domain::{RegionOnLattice, crossing, is_near, lies_between, place};
 use crate::geometry::{BoxTree, LatticePoint, NumberSet, Rect};
+use crate::outline::local::LocalMesh;
 use crate::outline::triangulation::NONE;
 
 /// Where a run of a segment may begin or end.

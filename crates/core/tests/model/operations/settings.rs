@@ -62,7 +62,11 @@ fn cleaning(share: f64) -> Cleaning {
         ..0.6 => KeptParts::Largest,
         _ => KeptParts::Share(share - 0.6),
     };
-    Cleaning { parts, keeps_pinches: (100.0 * share) % 2.0 < 1.0 }
+    Cleaning {
+        parts,
+        keeps_pinches: (100.0 * share) % 2.0 < 1.0,
+        improves_boundary: (100.0 * share) % 3.0 < 1.0,
+    }
 }
 
 /// Returns no line to three of them, which cross each other, the outline and the sides of the square.

@@ -165,6 +165,14 @@ impl SavedMarks {
 struct SavedCleaning {
     parts: StoredParts,
     keep_pinches: bool,
+    #[serde(default, skip_serializing_if = "is_false")]
+    improve_boundary: bool,
+}
+
+/// Whether a key is left out of a project, so that earlier versions read it.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// A share is a table here and a plain number in recipes.
@@ -183,7 +191,8 @@ impl From<Cleaning> for SavedCleaning {
             KeptParts::Largest => StoredParts::Largest,
             KeptParts::Share(share) => StoredParts::WithShare(share),
         };
-        Self { parts, keep_pinches: cleaning.keeps_pinches }
+        let Cleaning { keeps_pinches: keep_pinches, improves_boundary: improve_boundary, .. } = cleaning;
+        Self { parts, keep_pinches, improve_boundary }
     }
 }
 
@@ -194,7 +203,8 @@ impl From<SavedCleaning> for Cleaning {
             StoredParts::Largest => KeptParts::Largest,
             StoredParts::WithShare(share) => KeptParts::Share(share),
         };
-        Self { parts, keeps_pinches: saved.keep_pinches }
+        let SavedCleaning { keep_pinches: keeps_pinches, improve_boundary: improves_boundary, .. } = saved;
+        Self { parts, keeps_pinches, improves_boundary }
     }
 }
 

@@ -249,6 +249,7 @@ impl<L> SavedSettings<L> {
         Cleaning {
             parts: self.domain.parts.map_or(default.parts, Into::into),
             keeps_pinches: self.domain.keep_pinches.unwrap_or(default.keeps_pinches),
+            improves_boundary: self.domain.improve_boundary.unwrap_or(default.improves_boundary),
         }
     }
 }

@@ -67,6 +67,7 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
         boundary_diameter: settings.boundary.diameter().map(Into::into),
         parts: is_fitted.then(|| settings.cleaning.parts.into()),
         keep_pinches: (is_fitted && settings.cleaning.keeps_pinches).then_some(true),
+        improve_boundary: (is_fitted && settings.cleaning.improves_boundary).then_some(true),
         ..domain
     };
     match &settings.domain.shape {

@@ -10,7 +10,8 @@ impl<L> SavedSettings<L> {
     /// Returns the settings with the values of `options` in place of their own, and with their lines besides
     /// their own. Domain, layers, paths and pins are their own: no option goes with them.
     pub fn overridden_by<O>(self, options: &SavedSettings<O>) -> Self {
-        let SavedDomain { open, boundary, boundary_diameter, parts, keep_pinches, .. } = &options.domain;
+        let SavedDomain { open, boundary, boundary_diameter, parts, keep_pinches, improve_boundary, .. } =
+            &options.domain;
         let SavedMesh { spacing, rule, max_triangles, max_level, max_memory } = &options.mesh;
         let SavedLimits { h_min, h_risk, h_max, shape, gradation } = options.limits;
         let line: Vec<SavedLine> = self.line.into_iter().chain(options.line.iter().cloned()).collect();
@@ -22,6 +23,7 @@ impl<L> SavedSettings<L> {
                 boundary_diameter: boundary_diameter.or(self.domain.boundary_diameter),
                 parts: parts.or(self.domain.parts),
                 keep_pinches: keep_pinches.or(self.domain.keep_pinches),
+                improve_boundary: improve_boundary.or(self.domain.improve_boundary),
                 ..self.domain
             },
             mesh: SavedMesh {

@@ -146,6 +146,8 @@ pub struct SavedDomain {
     /// Whether pinches stay.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep_pinches: Option<bool>,
+    /// Whether triangles along the outline are changed for better angles.
+    pub improve_boundary: Option<bool>,
     /// Where the boundary is open.
     #[serde(skip_serializing_if = "SavedOpenings::is_empty")]
     pub open: SavedOpenings,

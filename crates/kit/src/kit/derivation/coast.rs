@@ -139,10 +139,11 @@ impl Coast {
     }
 }
 
-/// Returns whether the outline is that of the follower's domain.
+/// Returns whether the outline is that of the follower's domain, and all that is done to triangles along it.
 fn has_domain_of(outline: &OutlineFollower, follower: &Follower) -> bool {
     let domains = [outline.domain(), follower.domain()];
     let regions = domains.map(|domain| domain.region_on_outline());
     domains.iter().all(|domain| domain.lines().is_none())
+        && !follower.settings().derived_cleaning().improves_boundary
         && matches!(regions, [Some(a), Some(b)] if std::ptr::eq(a, b))
 }

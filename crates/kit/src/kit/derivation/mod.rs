@@ -308,8 +308,9 @@ impl Derivation {
     }
 
     fn start(&mut self, key: DerivationKey, follower: &Follower, paint: &PaintLayers, jobs: &Jobs) {
-        // What follows the outline knows nothing of lines.
-        let follows = key.lines.is_empty() && !self.coast.is_of(follower);
+        // What follows the outline knows nothing of lines, and does not improve triangles.
+        let is_plain = key.lines.is_empty() && !key.cleaning.improves_boundary;
+        let follows = is_plain && !self.coast.is_of(follower);
         // Dropping a large one takes longer than a frame.
         let useless = self.coast.take_useless();
         let settings = follower.settings();

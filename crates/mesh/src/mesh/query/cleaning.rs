@@ -35,6 +35,8 @@ pub struct Cleaning {
     pub parts: KeptParts,
     /// Whether nodes stay in which triangles meet without sharing an edge.
     pub keeps_pinches: bool,
+    /// Whether triangles along the outline are changed for better angles, before parts are looked at.
+    pub improves_boundary: bool,
 }
 
 /// Which parts of a mesh stay.
@@ -50,9 +52,10 @@ pub enum KeptParts {
 
 impl Cleaning {
     /// Nothing is removed.
-    pub const NONE: Self = Self { parts: KeptParts::All, keeps_pinches: true };
+    pub const NONE: Self = Self { parts: KeptParts::All, keeps_pinches: true, improves_boundary: false };
     /// One part without pinches, as solvers need it.
-    pub const FOR_SOLVERS: Self = Self { parts: KeptParts::Largest, keeps_pinches: false };
+    pub const FOR_SOLVERS: Self =
+        Self { parts: KeptParts::Largest, keeps_pinches: false, improves_boundary: false };
 }
 
 /// The parts and pinches that [`MeshPatch::clean`] removed.

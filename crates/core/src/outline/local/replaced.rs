@@ -1,7 +1,6 @@
 //! Writes local triangles into a patch.
 
-use super::local::LocalMesh;
-use super::patched::{PatchedMesh, PatchedTriangle};
+use super::{LocalMesh, PatchedMesh, PatchedTriangle};
 use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::{MeshPatch, NodeId, PatchTriangle, TriangleId};
 use crate::outline::angles::Angles;
@@ -9,7 +8,13 @@ use crate::outline::triangulation::NONE;
 
 impl LocalMesh {
     /// Writes the triangles into a patch in place of those that they were made from.
-    pub(super) fn write(&self, whole: &PatchedMesh, start: &Self, angles: &Angles, to: &mut Replaced) {
+    pub(in crate::outline) fn write(
+        &self,
+        whole: &PatchedMesh,
+        start: &Self,
+        angles: &Angles,
+        to: &mut Replaced,
+    ) {
         let mut used = vec![false; self.points.len()];
         self.triangles
             .corners
@@ -50,18 +55,18 @@ impl LocalMesh {
 
 /// What takes the place of some triangles of a mesh with a patch.
 #[derive(Default)]
-pub(super) struct Replaced {
-    pub(super) added: Vec<LatticePoint>,
-    pub(super) moved: Vec<(NodeId, LatticePoint)>,
-    pub(super) gone: Vec<PatchedTriangle>,
-    pub(super) pieces: Vec<PatchedTriangle>,
+pub(in crate::outline) struct Replaced {
+    pub(in crate::outline) added: Vec<LatticePoint>,
+    pub(in crate::outline) moved: Vec<(NodeId, LatticePoint)>,
+    pub(in crate::outline) gone: Vec<PatchedTriangle>,
+    pub(in crate::outline) pieces: Vec<PatchedTriangle>,
     /// The edges on segments.
-    pub(super) edges: Vec<(u32, [NodeId; 2])>,
+    pub(in crate::outline) edges: Vec<(u32, [NodeId; 2])>,
 }
 
 impl Replaced {
     /// Returns the patch with the changes.
-    pub(super) fn into_patch(mut self, whole: &PatchedMesh) -> MeshPatch {
+    pub(in crate::outline) fn into_patch(mut self, whole: &PatchedMesh) -> MeshPatch {
         let sorted = |mut corners: [NodeId; 3]| {
             corners.sort_unstable();
             corners

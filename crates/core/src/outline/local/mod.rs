@@ -1,14 +1,21 @@
-//! The triangles around lines, whose nodes move and whose edges flip.
+//! Some triangles of a mesh with a patch, whose nodes move and whose edges flip: around lines, and along the
+//! outline.
 
-use super::patched::{PatchedMesh, PatchedTriangle};
+mod improve;
+mod patched;
+mod replaced;
+
 use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::{NodeId, TriangleId};
 use crate::outline::angles::Angles;
 use crate::outline::triangulation::{NONE, Triangulation};
+pub(in crate::outline) use improve::Improver;
+pub(in crate::outline) use patched::{PatchedMesh, PatchedTriangle};
+pub(in crate::outline) use replaced::Replaced;
 
 /// What a node may do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum LineNodeState {
+pub(in crate::outline) enum LineNodeState {
     /// Anything that keeps the angles.
     Free,
     /// Slide along a segment.
@@ -21,30 +28,30 @@ pub(super) enum LineNodeState {
     Fixed,
 }
 
-/// Connected triangles around lines. Nodes and triangles have numbers in the order of their places, so that
+/// Some triangles. Nodes and triangles have numbers in the order of their places, so that
 /// nothing depends on the order of the mesh's entries.
 #[derive(Clone, Debug)]
-pub(super) struct LocalMesh {
-    pub(super) triangles: Triangulation,
+pub(in crate::outline) struct LocalMesh {
+    pub(in crate::outline) triangles: Triangulation,
     /// For each triangle, the one of the mesh whose place it takes; `None` for one that is gone.
-    pub(super) owners: Vec<Option<TriangleId>>,
-    pub(super) points: Vec<LatticePoint>,
-    pub(super) states: Vec<LineNodeState>,
+    pub(in crate::outline) owners: Vec<Option<TriangleId>>,
+    pub(in crate::outline) points: Vec<LatticePoint>,
+    pub(in crate::outline) states: Vec<LineNodeState>,
     /// For each node, whether it is on the boundary of the domain. Not known of nodes at which some triangles
     /// are missing.
-    pub(super) on_boundary: Vec<bool>,
+    pub(in crate::outline) on_boundary: Vec<bool>,
     /// For each node of the start, the cotangent of the smallest angle around it, if that is below the bound.
-    pub(super) poor_at: Vec<f64>,
+    pub(in crate::outline) poor_at: Vec<f64>,
     /// For each node of the start, its number in the mesh with its patch.
-    pub(super) ids: Vec<NodeId>,
+    pub(in crate::outline) ids: Vec<NodeId>,
     /// The edges that lie on segments, by their nodes in ascending order.
-    pub(super) fixed: NumberMap<[u32; 2], u32>,
+    pub(in crate::outline) fixed: NumberMap<[u32; 2], u32>,
 }
 
 impl LocalMesh {
     /// Makes the mesh of some triangles. `is_complete` says of each node of the mesh whether all triangles at
     /// it are among them.
-    pub(super) fn new(
+    pub(in crate::outline) fn new(
         whole: &PatchedMesh,
         triangles: &[PatchedTriangle],
         is_complete: &[bool],
@@ -128,7 +135,7 @@ impl LocalMesh {
     }
 
     /// Returns the sets of triangles that are connected by edges, each in ascending order.
-    pub(super) fn parts(&self) -> Vec<Vec<u32>> {
+    pub(in crate::outline) fn parts(&self) -> Vec<Vec<u32>> {
         let (mut parts, mut is_seen) = (Vec::new(), vec![false; self.triangles.len()]);
         for first in 0..self.triangles.len() as u32 {
             let mut part = Vec::new();
@@ -147,7 +154,7 @@ impl LocalMesh {
     }
 
     /// Returns some of the triangles. Nodes and triangles keep their order.
-    pub(super) fn part(&self, part: &[u32]) -> Self {
+    pub(in crate::outline) fn part(&self, part: &[u32]) -> Self {
         let mut nodes: Vec<u32> = part.iter().flat_map(|&t| self.triangles.corners[t as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -168,7 +175,7 @@ impl LocalMesh {
     }
 
     /// Returns whether triangles close around their node.
-    pub(super) fn closes(&self, star: &[(u32, usize)]) -> bool {
+    pub(in crate::outline) fn closes(&self, star: &[(u32, usize)]) -> bool {
         let (first, i) = star[0];
         self.triangles.across[first as usize][(i + 2) % 3] != NONE
     }
@@ -199,32 +206,37 @@ impl LocalMesh {
     }
 
     /// Returns whether the domain ends at the edge opposite the i-th corner of a triangle.
-    pub(super) fn is_boundary(&self, triangle: u32, i: usize) -> bool {
+    pub(in crate::outline) fn is_boundary(&self, triangle: u32, i: usize) -> bool {
         let [_, b, c] = self.triangles.starting_at(triangle, i);
         // Where neither is known to be on the boundary, the local triangles end.
         self.triangles.across[triangle as usize][i] == NONE
             && (self.on_boundary[b as usize] || self.on_boundary[c as usize])
     }
 
-    pub(super) fn is_alive(&self, triangle: u32) -> bool {
+    pub(in crate::outline) fn is_alive(&self, triangle: u32) -> bool {
         self.owners[triangle as usize].is_some()
     }
 
-    pub(super) fn corners(&self, triangle: u32) -> [LatticePoint; 3] {
+    pub(in crate::outline) fn corners(&self, triangle: u32) -> [LatticePoint; 3] {
         self.triangles.corners[triangle as usize].map(|v| self.points[v as usize])
     }
 
     /// Returns the edge of two nodes, as the key of [`Self::fixed`].
-    pub(super) fn key(a: u32, b: u32) -> [u32; 2] {
+    pub(in crate::outline) fn key(a: u32, b: u32) -> [u32; 2] {
         [a.min(b), a.max(b)]
     }
 
-    pub(super) fn is_fixed(&self, a: u32, b: u32) -> bool {
+    pub(in crate::outline) fn is_fixed(&self, a: u32, b: u32) -> bool {
         self.fixed.contains_key(&Self::key(a, b))
     }
 
     /// Adds a node, which has no triangle yet.
-    pub(super) fn add_node(&mut self, at: LatticePoint, state: LineNodeState, on_boundary: bool) -> u32 {
+    pub(in crate::outline) fn add_node(
+        &mut self,
+        at: LatticePoint,
+        state: LineNodeState,
+        on_boundary: bool,
+    ) -> u32 {
         self.points.push(at);
         self.states.push(state);
         self.on_boundary.push(on_boundary);
@@ -233,7 +245,7 @@ impl LocalMesh {
     }
 
     /// Returns the node opposite an edge in the triangle across it, and that triangle.
-    pub(super) fn opposite(&self, triangle: u32, i: usize) -> Option<(u32, u32)> {
+    pub(in crate::outline) fn opposite(&self, triangle: u32, i: usize) -> Option<(u32, u32)> {
         let across = self.triangles.across[triangle as usize][i];
         if across == NONE {
             return None;
@@ -244,7 +256,7 @@ impl LocalMesh {
     }
 
     /// Flips the edge opposite the i-th corner of a triangle.
-    pub(super) fn flip(&mut self, triangle: u32, i: usize) {
+    pub(in crate::outline) fn flip(&mut self, triangle: u32, i: usize) {
         self.triangles.flip(triangle, i);
     }
 
@@ -258,7 +270,7 @@ impl LocalMesh {
     ///    /       \         / /   \ \      w  c a x
     ///   a---------b       a---------b
     /// ```
-    pub(super) fn split_triangle(&mut self, t: u32, x: u32) {
+    pub(in crate::outline) fn split_triangle(&mut self, t: u32, x: u32) {
         let [a, b, c] = self.triangles.corners[t as usize];
         let [bc, ca, ab] = self.triangles.across[t as usize];
         let u = self.push_triangle(t, [b, c, x]);
@@ -285,7 +297,7 @@ impl LocalMesh {
     ///     \|/               \|/
     ///      b                 b
     /// ```
-    pub(super) fn split_edge(&mut self, t: u32, i: usize, x: u32) {
+    pub(in crate::outline) fn split_edge(&mut self, t: u32, i: usize, x: u32) {
         let u = self.triangles.across[t as usize][i];
         let [a, b, c] = self.triangles.starting_at(t, i);
         let across = self.triangles.across[t as usize];
@@ -344,7 +356,7 @@ impl LocalMesh {
     ///      \ | /                  |
     ///        y                    y
     /// ```
-    pub(super) fn collapse(&mut self, v: u32, star: &[(u32, usize)], k: usize) {
+    pub(in crate::outline) fn collapse(&mut self, v: u32, star: &[(u32, usize)], k: usize) {
         let (l, i) = star[k];
         let (r, j) = star[(k + star.len() - 1) % star.len()];
         let [_, w, x] = self.triangles.starting_at(l, i);
@@ -378,6 +390,26 @@ impl LocalMesh {
             }
         }
     }
+}
+
+/// Returns the triangles for which something is true with some rings around them, and for each node whether
+/// all triangles at it are among them.
+pub(in crate::outline) fn rings_around(
+    whole: &PatchedMesh,
+    rings: usize,
+    counts: impl Fn(&PatchedTriangle) -> bool + Sync,
+) -> (Vec<PatchedTriangle>, Vec<bool>) {
+    let mut triangles = whole.triangles(counts);
+    let mut is_marked = vec![false; whole.points.len()];
+    let mut is_complete = is_marked.clone();
+    for _ in 0..rings {
+        for v in triangles.iter().flat_map(|t| t.corners) {
+            is_marked[v.index()] = true;
+        }
+        triangles = whole.triangles(|t| t.corners.iter().any(|v| is_marked[v.index()]));
+        is_complete.clone_from(&is_marked);
+    }
+    (triangles, is_complete)
 }
 
 /// Returns the triangles across the edges.

@@ -2,11 +2,13 @@
 
 use glam::{DVec2, dvec2};
 
-use super::local::{LineNodeState, LocalMesh};
+use super::{LineNodeState, LocalMesh};
+use crate::domain::{OutlineNearby, RegionOnLattice};
 use crate::geometry::LatticePoint;
 use crate::outline::angles::Angles;
 use crate::outline::lengths::LengthAnswers;
 use crate::outline::smooth::DIRECTIONS;
+use crate::outline::snap::rounded;
 use crate::outline::triangulation::NONE;
 
 /// Step lengths of the search, as shares of the mean edge: the first one, and how often it is halved.
@@ -20,13 +22,15 @@ const ROUNDS: usize = 12;
 const LEAST_GAIN: f64 = 1e-3;
 
 /// Improves triangles.
-pub(super) struct Improver<'a> {
-    pub(super) angles: &'a Angles,
-    pub(super) answers: LengthAnswers<'a>,
+pub(in crate::outline) struct Improver<'a> {
+    pub(in crate::outline) angles: &'a Angles,
+    pub(in crate::outline) answers: LengthAnswers<'a>,
     /// The upper right corner of the lattice.
-    pub(super) extent: LatticePoint,
+    pub(in crate::outline) extent: LatticePoint,
     /// The ends of all segments.
-    pub(super) segments: &'a [[LatticePoint; 2]],
+    pub(in crate::outline) segments: &'a [[LatticePoint; 2]],
+    /// The region along whose outline nodes may slide.
+    pub(in crate::outline) slides_along: Option<&'a RegionOnLattice>,
 }
 
 /// A change, with the largest cotangent that it leaves in the triangles that it changes.
@@ -39,7 +43,7 @@ enum Improvement {
 
 impl Improver<'_> {
     /// Changes triangles, the one with the smallest angle first, until no change helps.
-    pub(super) fn run(&mut self, local: &mut LocalMesh) {
+    pub(in crate::outline) fn run(&mut self, local: &mut LocalMesh) {
         let mut may_help: Vec<bool> = vec![true; local.triangles.len()];
         for _ in 0..ROUNDS {
             let mut poor = Vec::new();
@@ -143,11 +147,11 @@ impl Improver<'_> {
     }
 
     fn shift(&mut self, local: &LocalMesh, v: u32) -> Option<(f64, Improvement)> {
-        if local.states[v as usize] == LineNodeState::Fixed
-            || local.states[v as usize] == LineNodeState::OnOutline
-        {
-            return None;
-        }
+        let outline = match (local.states[v as usize], self.slides_along) {
+            (LineNodeState::Fixed, _) | (LineNodeState::OnOutline, None) => return None,
+            (LineNodeState::OnOutline, outline) => outline,
+            _ => None,
+        };
         let mut star = Vec::new();
         local.triangles.star(v, &mut star);
         let former: Vec<[LatticePoint; 3]> = star.iter().map(|&(t, _)| local.corners(t)).collect();
@@ -164,12 +168,20 @@ impl Improver<'_> {
             self.angles.vector(a, b).length()
         });
         let mean = edges.sum::<f64>() / star.len() as f64;
+        let mut nearby = OutlineNearby::default();
+        if let Some(region) = outline {
+            nearby.collect(region, local.points[v as usize].as_dvec2(), 2.0 * mean, self.angles.step());
+        }
         let before = self.worst(&former);
         let (mut best, mut length) = ((before, local.points[v as usize]), FIRST_STEP * mean);
         for _ in 0..STEP_LENGTHS {
             let from = best.1;
             for direction in DIRECTIONS {
-                let Some(to) = self.target(local, v, from, length * direction) else { continue };
+                let to = match outline {
+                    Some(_) => self.on_outline(&nearby, from, length * direction, mean),
+                    None => self.target(local, v, from, length * direction),
+                };
+                let Some(to) = to else { continue };
                 let new = moved(to);
                 let worst = self.worst(&new);
                 if worst < best.0 && self.allows(&new, &former) {
@@ -179,6 +191,18 @@ impl Improver<'_> {
             length /= 2.0;
         }
         (best.0 < before - LEAST_GAIN).then_some((best.0, Improvement::Move { node: v, to: best.1 }))
+    }
+
+    /// Returns the place on the outline that is nearest to a node after a step in world units.
+    fn on_outline(
+        &self,
+        nearby: &OutlineNearby,
+        from: LatticePoint,
+        by: DVec2,
+        reach: f64,
+    ) -> Option<LatticePoint> {
+        let to = nearby.nearest(from.as_dvec2() + by / self.angles.step(), reach)?;
+        Some(rounded(to, self.extent))
     }
 
     /// Returns the place of a node after a step in world units, on what it slides along.
@@ -255,7 +279,7 @@ impl Improver<'_> {
     }
 
     /// Cuts the edges that are longer than their target in their middles. Returns whether there were any.
-    pub(super) fn halve_long(
+    pub(in crate::outline) fn halve_long(
         &mut self,
         local: &mut LocalMesh,
         mut may: impl FnMut(&LocalMesh, u32) -> bool,
