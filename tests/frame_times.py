@@ -21,28 +21,11 @@ import sys
 import tempfile
 import threading
 import time
-import zipfile
 
 
 def wave(fine, height):
     """A square that is fine below a wave, so that strokes cross fine and coarse parts."""
     return f"if(y < {height} + 0.1 * sin(7 * x), {fine}, 0.2)"
-
-
-def write_project(folder, fine, height):
-    settings = {
-        "format": "Meshbrush project", "version": 1, "written_by": "tests/frame_times.py", "name": "",
-        "domain": {"bounds": [0.0, 0.0, 1.0, 1.0], "shape": "whole"},
-        "boundary": "report", "spacing": 0.05, "resolution": 1024,
-        "transfer": {"h_min": 0.7 * fine, "h_max": 0.2, "shape": 1.0},
-        "base": {"formula": wave(fine, height)},
-        "rule": "area", "max_triangles": 20_000_000, "max_memory": 4_000_000_000,
-    }
-    path = os.path.join(folder, "mesh.meshbrush")
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("settings.json", json.dumps(settings))
-        archive.writestr("paint.tiles", b"")
-    return path
 
 
 def write_recipe(folder, text):
@@ -52,36 +35,28 @@ def write_recipe(folder, text):
     return path
 
 
-def fine_below(height):
+def fine_below(height, fine=0.0011):
     """The part of a recipe that decides how large the mesh is."""
     return f"""
 [mesh]
 spacing = 0.05
 [limits]
-h_min = 0.00077
-h_risk = 0.0011
+h_min = {0.7 * fine}
+h_risk = {fine}
 h_max = 0.2
 [[layer]]
 kind = "formula"
 quantity = "diameter"
-formula = "{wave(0.0011, height)}"
+formula = "{wave(fine, height)}"
 """
 
 
-def painted(folder):
-    """The part of a recipe with a layer to paint on: a project has the paint, which is none."""
-    write_project(folder, 0.1, 0.5)
-    return """
-[[layer]]
-kind = "paint"
-quantity = "risk"
-name = "Painted risk"
-file = "mesh.meshbrush"
-"""
+def write_plain(folder, fine, height):
+    return write_recipe(folder, fine_below(height, fine))
 
 
 def write_layers(folder):
-    """A recipe of eight layers, of which the last is painted on."""
+    """A recipe of seven layers, to which one is added to be painted on."""
     side = 512
     shares = [(n + 0.5) / side for n in range(side)]
     rows = [" ".join(f"{0.5 + 0.5 * math.sin(9 * x) * math.cos(11 * y):.4f}" for x in shares) for y in shares]
@@ -119,7 +94,7 @@ mask = [[[[0.7, 0.1], [0.9, 0.12], [0.85, 0.3], [0.72, 0.25]]]]
 kind = "formula"
 quantity = "risk"
 formula = "0.5 * exp(-40 * ((x - 0.5)^2 + (y - 0.8)^2))"
-{painted(folder)}""")
+""")
 
 
 def write_coast(folder):
@@ -137,14 +112,14 @@ def write_coast(folder):
 region = "lake.geojson"
 boundary = "outline"
 boundary_diameter = 0.0011
-""" + painted(folder))
+""")
 
 
 # Diameter and height of the fine part; a stroke asks for less.
 MESHES = {
-    "34k": lambda folder: write_project(folder, 0.00625, 0.3),
-    "1.5M": lambda folder: write_project(folder, 0.00125, 0.45),
-    "2.4M": lambda folder: write_project(folder, 0.00088, 0.36),
+    "34k": lambda folder: write_plain(folder, 0.00625, 0.3),
+    "1.5M": lambda folder: write_plain(folder, 0.00125, 0.45),
+    "2.4M": lambda folder: write_plain(folder, 0.00088, 0.36),
     "layers": write_layers,
     "coast": write_coast,
 }
@@ -263,7 +238,16 @@ def undo(window):
     window.settle()
 
 
+def add_paint_layer(window):
+    """Through the palette, as a person would: a recipe has no paint."""
+    window.xdotool("key", "ctrl+p", "sleep", 0.5, "type", "--delay", 5, "add layer: paint as risk")
+    window.xdotool("sleep", 0.5, "key", "Return")
+    time.sleep(0.5)
+    window.settle()
+
+
 def measure(window):
+    add_paint_layer(window)
     window.xdotool("key", "b")
     window.xdotool("mousemove", LEFT, TOP)
     window.settle()
