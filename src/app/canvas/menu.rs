@@ -31,7 +31,8 @@ impl Canvas {
     pub fn open_menu(&self, ctx: &Context, view: &View, tools: &Tools, session: &Session) {
         let (Some((canvas, rect)), Some(camera)) = (self.shown, view.camera) else { return };
         let (space, px_per_point) = (space_sight(view, session), f64::from(ctx.pixels_per_point()));
-        let pointer = Pointer { rect, camera, space, tools, px_per_point };
+        let modifiers = ctx.input(|input| input.modifiers);
+        let pointer = Pointer { rect, camera, space, tools, session, modifiers, px_per_point };
         let under_pointer = ctx.pointer_latest_pos().filter(|at| rect.contains(*at));
         let at = under_pointer.unwrap_or(rect.center());
         ctx.data_mut(|data| data.insert_temp(id(), (at, pointer.world(at))));

@@ -223,8 +223,10 @@ impl Canvas {
     ) -> Option<Pointer<'a>> {
         let (_, rect) = self.shown?;
         navigation::fit_camera(view, session.mesh().lattice(), rect, ctx.pixels_per_point());
-        let px_per_point = f64::from(ctx.pixels_per_point());
-        Some(Pointer { rect, camera: view.camera?, space: space_sight(view, session), tools, px_per_point })
+        let (px_per_point, modifiers) =
+            (f64::from(ctx.pixels_per_point()), ctx.input(|input| input.modifiers));
+        let (camera, space) = (view.camera?, space_sight(view, session));
+        Some(Pointer { rect, camera, space, tools, session, modifiers, px_per_point })
     }
 
     /// Returns whether a press at `pos`, in points, meets the canvas and nothing over it. egui knows this
