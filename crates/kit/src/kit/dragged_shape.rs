@@ -44,7 +44,8 @@ pub fn press_shape(
 #[derive(Debug)]
 struct ShapeDrag {
     shape: DraggedShape,
-    /// The corners of a lasso or a line so far, in points; of another shape only the point where the button went down.
+    /// The corners of a lasso or a line so far, in points; of another shape only the point where the button
+    /// went down.
     trail: Vec<Pos2>,
     /// The position of the pointer, in points.
     to: Pos2,

@@ -50,7 +50,7 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     ("Type", "What the piece is for coastal solvers: open, land or an inflow, and how land treats the flow."),
     (
         "Draw by",
-        "What a press does: sets the next corner of a line, or begins a line by free hand, a rectangle or a circle; or it selects a line and moves its corners.",
+        "What a press does: sets the next corner of a line, or begins a line by free hand, a rectangle or a circle, or sets an end of the deepest way; or it selects a line and moves its corners.",
     ),
     (
         "Snap",

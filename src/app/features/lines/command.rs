@@ -32,6 +32,10 @@ pub enum LinesCommand {
     End(LineEnd),
     /// Adds a line that was drawn in one drag.
     Draw(Vec<DVec2>, LineEnd),
+    /// Sets the first end of the deepest way, or the other one and begins to look for it.
+    WayAt(DVec2),
+    /// Adds a deepest way that was found.
+    AddWay(Vec<DVec2>),
     /// Selects a line of the document, or none.
     Select(Option<usize>),
     /// Names a line.
@@ -71,6 +75,8 @@ pub enum LineToolMode {
     Rectangle,
     /// It begins a circle, from its centre.
     Circle,
+    /// It sets an end of the deepest way.
+    DeepestWay,
     /// It selects a line, and moves the corners of the selected one.
     Edit,
 }

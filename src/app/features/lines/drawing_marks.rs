@@ -24,7 +24,7 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
             over.painter.circle_filled(corners[corner], 3.5, tokens(over.ui).accent);
         }
     }
-    let corners: Vec<Pos2> = tool.corners.iter().map(|&corner| at(corner)).collect();
+    let corners: Vec<Pos2> = tool.corners.iter().chain(&tool.way_from).map(|&corner| at(corner)).collect();
     let to = snap.map(|snap| at(snap.at)).or(over.pointer);
     marks::paint_open_line(over.painter, &corners, to);
     if let Some(snap) = snap {
@@ -45,8 +45,7 @@ fn snap_under_pointer(state: &FrameState<'_>, over: &OverMesh<'_>) -> Option<Sna
     let (alt, is_down) = over.ui.input(|input| (input.modifiers.alt, input.pointer.primary_down()));
     let point = state.pointer.filter(|_| over.pointer.is_some() && snaps_now(state.tools, alt))?;
     let without = match tool.mode {
-        LineToolMode::Corners => None,
-        LineToolMode::FreeHand => None,
+        LineToolMode::Corners | LineToolMode::FreeHand | LineToolMode::DeepestWay => None,
         LineToolMode::Edit if is_down => Some(tool.selected?),
         LineToolMode::Edit | LineToolMode::Rectangle | LineToolMode::Circle => return None,
     };

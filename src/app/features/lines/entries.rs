@@ -21,6 +21,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         mode("Draw lines by free hand", LineToolMode::FreeHand),
         mode("Draw rectangles as lines", LineToolMode::Rectangle),
         mode("Draw circles as lines", LineToolMode::Circle),
+        mode("Follow the deepest way", LineToolMode::DeepestWay),
         mode("Move corners of lines", LineToolMode::Edit),
         item("Snap corners of lines", LinesCommand::Snaps(!tool.snaps))
             .key(Key::S)

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::deepest::{NO_DEPTHS, find_way, has_depths};
 use super::entries::entries;
 use super::files::ROLES;
 use super::gestures::GESTURES;
 use super::load::load_lines;
 use super::places::fit_in;
-use super::{DocumentLines, LINE, LINES, LineEnd, LinesCommand, marks};
+use super::{DocumentLines, LINE, LINES, LineEnd, LineToolMode, LinesCommand, marks};
 use crate::app::features::lines::LineTool;
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::Line;
@@ -42,10 +43,7 @@ impl Feature for DocumentLines {
             LinesCommand::Add(lines, notes) => add_read(lines, notes, ctx),
             LinesCommand::Remove(number) => remove(number, ctx),
             LinesCommand::RemoveAll => set_lines(Vec::new(), ctx),
-            LinesCommand::Mode(mode) => {
-                tool.mode = mode;
-                ctx.tools.select(&LINE);
-            }
+            LinesCommand::Mode(mode) => use_mode(mode, ctx),
             LinesCommand::Snaps(snaps) => tool.snaps = snaps,
             LinesCommand::AddCorner(corner) => tool.corners.push(corner),
             LinesCommand::MoveCorner(index, corner) => {
@@ -56,6 +54,8 @@ impl Feature for DocumentLines {
             LinesCommand::RemoveCorner => _ = tool.corners.pop(),
             LinesCommand::End(end) => end_line(end, ctx),
             LinesCommand::Draw(points, end) => add_drawn("line", points, end, ctx),
+            LinesCommand::WayAt(point) => set_end_of_way(point, ctx),
+            LinesCommand::AddWay(points) => add_drawn("deepest way", points, LineEnd::Open, ctx),
             LinesCommand::Select(number) => select(number, ctx),
             LinesCommand::Rename(number, name) => rename(number, &name, ctx),
             LinesCommand::ShowPlace(place) => show_place(place, ctx),
@@ -83,7 +83,29 @@ impl Feature for DocumentLines {
     }
 
     fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
-        !std::mem::take(&mut ctx.tools.settings_mut::<LineTool>().corners).is_empty()
+        let tool = ctx.tools.settings_mut::<LineTool>();
+        let had_corners = !std::mem::take(&mut tool.corners).is_empty();
+        tool.way_from.take().is_some() || had_corners
+    }
+}
+
+/// Selects the tool and what a press does.
+fn use_mode(mode: LineToolMode, ctx: &mut Ctx<'_>) {
+    ctx.tools.settings_mut::<LineTool>().mode = mode;
+    ctx.tools.select(&LINE);
+    if mode == LineToolMode::DeepestWay && !has_depths(ctx.session.document().settings()) {
+        ctx.session.tell(NO_DEPTHS.into());
+    }
+}
+
+/// Sets the first end of the deepest way, or begins to look for the way to the other one.
+fn set_end_of_way(point: DVec2, ctx: &mut Ctx<'_>) {
+    if !has_depths(ctx.session.document().settings()) {
+        return ctx.session.tell(NO_DEPTHS.into());
+    }
+    match ctx.tools.settings_mut::<LineTool>().way_from.take() {
+        Some(from) if from != point => find_way([from, point], ctx),
+        _ => ctx.tools.settings_mut::<LineTool>().way_from = Some(point),
     }
 }
 

@@ -18,8 +18,8 @@ const MARK: f32 = 6.0;
 /// The most marks of a line that are drawn.
 const MOST_MARKS: usize = 500;
 
-/// Draws the lines of the document: solid where they are on edges of the mesh that files get, and dashed, with
-/// a ring, where they are not. The ring under the pointer says why.
+/// Draws the lines of the document: solid where they are on edges of the mesh that files get, and dashed,
+/// with a ring, where they are not. The ring under the pointer says why.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let lines = &state.session.document().settings().lines;
     let is_tool = state.tools.tool == &LINE;

@@ -1,8 +1,9 @@
-//! Lines of the document, along which the mesh that files get has edges: the tool that draws them, their list,
-//! and which parts of them are on edges.
+//! Lines of the document, along which the mesh that files get has edges: the tool that draws them, their
+//! list, and which parts of them are on edges.
 
 mod command;
 mod corners;
+mod deepest;
 mod drawing_marks;
 mod entries;
 mod execute;

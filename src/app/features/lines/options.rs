@@ -24,6 +24,7 @@ fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         (LineToolMode::FreeHand, "Free hand"),
         (LineToolMode::Rectangle, "Rectangle"),
         (LineToolMode::Circle, "Circle"),
+        (LineToolMode::DeepestWay, "Deepest way"),
         (LineToolMode::Edit, "Move corners"),
     ];
     if dropdown_row(ui, "Draw by", &mut mode, &choices).changed() {

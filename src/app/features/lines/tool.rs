@@ -26,6 +26,8 @@ pub static LINE: ToolSpec = ToolSpec {
         LineToolMode::FreeHand => FREE_HAND_HINT,
         LineToolMode::Rectangle => RECTANGLE_HINT,
         LineToolMode::Circle => CIRCLE_HINT,
+        LineToolMode::DeepestWay if state.tools.settings::<LineTool>().way_from.is_some() => WAY_END_HINT,
+        LineToolMode::DeepestWay => WAY_HINT,
         LineToolMode::Edit => EDIT_HINT,
     },
     paint: drawing_marks::paint,
@@ -49,6 +51,8 @@ const FREE_HAND_HINT: &[Hint] =
     &[Text("Drag along the line"), HintKey("Alt"), Text("ends do not snap, or the opposite")];
 const RECTANGLE_HINT: &[Hint] = &[Text("Drag from corner to corner"), HintKey("Shift"), Text("square")];
 const CIRCLE_HINT: &[Hint] = &[Text("Drag from the centre to the rim")];
+const WAY_HINT: &[Hint] = &[Text("Click the two ends of the way: it follows the deepest water between them")];
+const WAY_END_HINT: &[Hint] = &[Text("Click the other end of the way"), HintKey("Esc"), Text("no way")];
 const EDIT_HINT: &[Hint] = &[
     Text("Click a line; drag its corners, or drag elsewhere on it for another corner"),
     KeyOf("delete-the-selected-line"),
@@ -64,6 +68,8 @@ pub struct LineTool {
     pub snaps: bool,
     /// Corners so far of the line that is being drawn, in world units.
     pub corners: Vec<DVec2>,
+    /// The first end of the deepest way, while the other one is to be set.
+    pub way_from: Option<DVec2>,
     /// The number of the selected line. An undo can have removed it.
     pub selected: Option<usize>,
     /// The corner of the selected line that was taken hold of last.
@@ -78,6 +84,7 @@ impl Default for LineTool {
             mode: LineToolMode::default(),
             snaps: true,
             corners: Vec::new(),
+            way_from: None,
             selected: None,
             corner: None,
             shown_place: None,
@@ -135,6 +142,10 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
         LineToolMode::FreeHand => Some(press_shape(&COMMANDS, DraggedShape::Trail, press, true)),
         LineToolMode::Rectangle => Some(press_shape(&COMMANDS, DraggedShape::Rectangle, press, true)),
         LineToolMode::Circle => Some(press_shape(&COMMANDS, DraggedShape::Circle, press, true)),
+        LineToolMode::DeepestWay => {
+            commands.push(Command::from(LinesCommand::WayAt(place(pointer, press.at))));
+            None
+        }
         LineToolMode::Edit => press_to_edit(press, pointer, commands),
     }
 }

@@ -1,5 +1,6 @@
 //! Lines: from files and drawn, their list, their corners, and which parts are on edges.
 
+mod deepest;
 mod drawing;
 mod editing;
 mod files;
