@@ -126,7 +126,7 @@ pub fn open_example_in_slices(background: &mut Background, example: Example) {
         let opened = Opened { document: Arc::new(making.advance()?), home: None };
         Some(Outcome::PartRead(vec![Command::from(FileCommand::ShowExample(example, opened))]))
     };
-    background.start_in_slices(Aim::Read, Path::new(example.name()), begin, slice);
+    background.start_in_slices(Aim::Read, Path::new(example.name()), begin, move |state, _| slice(state));
 }
 
 /// Reads a recipe, which is shown as a document without a file once it is read.

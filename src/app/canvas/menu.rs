@@ -4,14 +4,14 @@ use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
 use glam::DVec2;
 
 use super::Canvas;
-use super::space::space_sight;
+use super::press::pointer_over;
 use crate::app::features::ROWS;
 use crate::app::features::inspection::InspectCommand;
 use meshbrush_kit::kit::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use meshbrush_kit::kit::session::Session;
 use meshbrush_kit::kit::tools::Tools;
 use meshbrush_kit::kit::view::View;
-use meshbrush_kit::kit::{CatalogItem, FrameState, MENU_WIDTH, Menu, Pointer, menu_item};
+use meshbrush_kit::kit::{CatalogItem, FrameState, MENU_WIDTH, Menu, menu_item};
 use meshbrush_ui::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
 /// Identifies the menu, and where it was opened in egui's memory.
@@ -29,9 +29,8 @@ pub fn open(ctx: &Context, at: Pos2, world: DVec2) {
 impl Canvas {
     /// Opens the menu for the point under the pointer, or else for the middle of the view.
     pub fn open_menu(&self, ctx: &Context, view: &View, tools: &Tools, session: &Session) {
-        let (Some((canvas, rect)), Some(camera)) = (self.shown, view.camera) else { return };
-        let (space, px_per_point) = (space_sight(view, session), f64::from(ctx.pixels_per_point()));
-        let pointer = Pointer { rect, camera, space, tools, px_per_point };
+        let Some((canvas, rect)) = self.shown else { return };
+        let Some(pointer) = pointer_over(ctx, rect, view, tools, session) else { return };
         let under_pointer = ctx.pointer_latest_pos().filter(|at| rect.contains(*at));
         let at = under_pointer.unwrap_or(rect.center());
         ctx.data_mut(|data| data.insert_temp(id(), (at, pointer.world(at))));

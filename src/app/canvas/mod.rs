@@ -28,7 +28,7 @@ pub use gpu::{CanvasGpu, canvas_image};
 use meshbrush_render::colormap::overlay_palette::OverlayPalette;
 use overlay::OverlayColors;
 pub use overlay_picture::overlay_of_picture;
-use press::{begin_gesture, pen_pressure};
+use press::{begin_gesture, pen_pressure, pointer_over};
 pub use space::space_sight;
 pub use toast::Toast;
 
@@ -223,8 +223,7 @@ impl Canvas {
     ) -> Option<Pointer<'a>> {
         let (_, rect) = self.shown?;
         navigation::fit_camera(view, session.mesh().lattice(), rect, ctx.pixels_per_point());
-        let px_per_point = f64::from(ctx.pixels_per_point());
-        Some(Pointer { rect, camera: view.camera?, space: space_sight(view, session), tools, px_per_point })
+        pointer_over(ctx, rect, view, tools, session)
     }
 
     /// Returns whether a press at `pos`, in points, meets the canvas and nothing over it. egui knows this

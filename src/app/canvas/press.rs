@@ -1,12 +1,14 @@
 //! What a press on the canvas begins.
 
-use eframe::egui::{Context, Key, PointerButton, TouchPhase};
+use eframe::egui::{Context, Key, PointerButton, Rect, TouchPhase};
 
 use super::menu;
-use super::space::only_in_plan;
+use super::space::{only_in_plan, space_sight};
 use meshbrush_kit::kit::command::{Command, ShellCommand};
 use meshbrush_kit::kit::platform::IS_PAGE;
-use meshbrush_kit::kit::tools::move_view;
+use meshbrush_kit::kit::session::Session;
+use meshbrush_kit::kit::tools::{Tools, move_view};
+use meshbrush_kit::kit::view::View;
 use meshbrush_kit::kit::{Gesture, Pointer, Press};
 
 /// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted. In a page fingers have a force, too,
@@ -17,6 +19,19 @@ pub fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>
         TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
         TouchPhase::End | TouchPhase::Cancel => Some(None),
     }
+}
+
+/// Returns the canvas in a rectangle, in points, as gestures see it; `None` before it was drawn.
+pub fn pointer_over<'a>(
+    ctx: &Context,
+    rect: Rect,
+    view: &View,
+    tools: &'a Tools,
+    session: &'a Session,
+) -> Option<Pointer<'a>> {
+    let (camera, space) = (view.camera?, space_sight(view, session));
+    let (modifiers, px_per_point) = (ctx.input(|input| input.modifiers), f64::from(ctx.pixels_per_point()));
+    Some(Pointer { rect, camera, space, tools, session, modifiers, px_per_point })
 }
 
 /// Begins the gesture of a press: panning by Space or the middle button, else the tool's.

@@ -5,6 +5,7 @@ use eframe::egui::{Key, Modifiers};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::domain::DomainTool;
 use crate::app::features::inspection::InspectCommand;
+use crate::app::features::lines::{LineTool, LinesCommand};
 use crate::app::features::regions::RegionCommand;
 use crate::app::features::regions::RegionTool;
 use meshbrush_kit::kit::command::{Command, EditCommand, ShellCommand};
@@ -22,16 +23,11 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let redo = named("Redo", history.redo_title());
     let can_undo = state.session.can_undo();
     let can_redo = history.redo_title().is_some();
-    let in_region = !state.tools.settings::<RegionTool>().corners.is_empty();
-    let remove = || match in_region {
-        true => Command::from(RegionCommand::RemoveCorner),
-        false => Command::from(DomainCommand::RemoveCorner),
-    };
-    let in_polygon = in_region || !state.tools.settings::<DomainTool>().corners.is_empty();
-    let undo = if in_polygon {
-        CatalogItem::new(Edit, "Undo corner of the polygon", remove())
-    } else {
-        CatalogItem::new(Edit, undo, Command::from(EditCommand::Undo)).enabled(can_undo)
+    let remove = remove_corner(state);
+    let in_polygon = remove.is_some();
+    let undo = match remove.clone() {
+        Some((of, remove)) => CatalogItem::new(Edit, format!("Undo corner of the {of}"), remove),
+        None => CatalogItem::new(Edit, undo, Command::from(EditCommand::Undo)).enabled(can_undo),
     };
     let mut items = vec![
         undo.id("undo").ctrl(Key::Z),
@@ -49,12 +45,25 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .group(),
         CatalogItem::new(Edit, "Cancel or deselect", Command::from(ShellCommand::Escape)).key(Key::Escape),
     ];
-    if in_polygon {
+    if let Some((_, remove)) = remove {
         items.push(
-            CatalogItem::new(Edit, "Remove the last corner", remove())
+            CatalogItem::new(Edit, "Remove the last corner", remove)
                 .key(Key::Backspace)
                 .only("while a polygon is drawn", true),
         );
     }
     items
+}
+
+/// Returns the command that removes the last corner of what is being drawn, and what that is.
+fn remove_corner(state: &FrameState<'_>) -> Option<(&'static str, Command)> {
+    let tools = state.tools;
+    if !tools.settings::<RegionTool>().corners.is_empty() {
+        return Some(("polygon", Command::from(RegionCommand::RemoveCorner)));
+    }
+    if !tools.settings::<LineTool>().corners.is_empty() {
+        return Some(("line", Command::from(LinesCommand::RemoveCorner)));
+    }
+    let in_domain = !tools.settings::<DomainTool>().corners.is_empty();
+    in_domain.then(|| ("polygon", Command::from(DomainCommand::RemoveCorner)))
 }

@@ -232,6 +232,9 @@ impl App {
                 self.session.tell(format!("Reading {name} was cancelled. The document is unchanged."));
                 self.dialogs.resume();
             }
+            Some((Aim::Find, name)) => {
+                self.session.tell(format!("Finding {name} was cancelled. The document is unchanged."));
+            }
             Some((Aim::Save(_), _)) => self.project.cancel_saving(),
             Some((Aim::Export, _)) | None => {}
         }
@@ -284,6 +287,8 @@ impl App {
                 self.commands.extend(commands);
             }
             Outcome::NotRead(problem) => self.fail(problem),
+            Outcome::Found(commands) => self.commands.extend(commands),
+            Outcome::NotFound(problem) => self.session.report(problem),
             Outcome::Exported(text) => {
                 self.dialogs.succeed(false);
                 self.session.tell(text);
@@ -332,6 +337,8 @@ impl App {
                 "{name} was read for the document that was open before, so nothing was done with it. Open it again if it \
                  belongs here."
             )),
+            // It is of no use without its document.
+            Outcome::Found(_) | Outcome::NotFound(_) => {}
             Outcome::NotWritten(problem) => {
                 self.project.stay();
                 self.session.report(problem);

@@ -55,9 +55,14 @@ fn open_if_asked(ui: &Ui, menu: Menu, button: &Response) {
 /// A button for each tool, and below them undo, redo and fit.
 pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     // In a low window there is no room for what the menus have, too.
-    let rows = (state.tools.all().len() + 3) as f32;
-    let is_low = ui.available_height() < rows * (metrics::TOOL + 6.0);
-    ui.spacing_mut().item_spacing.y = if is_low { 2.0 } else { 6.0 };
+    let (tools, height) = (state.tools.all().len() as f32, ui.available_height());
+    let is_low = height < (tools + 3.0) * (metrics::TOOL + 6.0);
+    let is_lowest = height < tools * (metrics::TOOL + 2.0);
+    ui.spacing_mut().item_spacing.y = match (is_lowest, is_low) {
+        (true, _) => 0.0,
+        (false, true) => 2.0,
+        (false, false) => 6.0,
+    };
     for &tool in state.tools.all() {
         let button = ToolButton::new(tool.icon, tool.name).entry(tool.name);
         if button.selected(state.tools.tool == tool).show(ui).clicked() {

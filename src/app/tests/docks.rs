@@ -24,7 +24,7 @@ use meshbrush_kit::kit::dock::Dock;
 use meshbrush_kit::kit::{Menu, Tab, all_tools};
 
 /// The most entries of a menu.
-const LONGEST_MENU: usize = 20;
+const LONGEST_MENU: usize = 21;
 
 fn tab(window: &Window) -> Tab {
     window.state().view().dock.tab()

@@ -15,6 +15,7 @@ use crate::app::catalog::catalog;
 use crate::app::features::ROWS;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::features::inspection::InspectCommand;
+use crate::app::features::lines::{LineEnd, LineToolMode, LinesCommand};
 use crate::app::features::painting::{BRUSH, ERASER};
 use crate::app::features::paths::PathCommand;
 use crate::app::features::pins::PinsCommand;
@@ -84,6 +85,18 @@ pub fn in_every_state(look: &mut dyn FnMut(&mut Window, &str)) {
         look(&mut window, "a polygon");
     }
     send(&mut window, Command::from(ShellCommand::Escape));
+    for corner in [dvec2(0.1, 0.1), dvec2(0.3, 0.1)] {
+        send(&mut window, Command::from(LinesCommand::Mode(LineToolMode::Corners)));
+        send(&mut window, Command::from(LinesCommand::AddCorner(corner)));
+        look(&mut window, "a line");
+    }
+    send(&mut window, Command::from(LinesCommand::AddCorner(dvec2(0.3, 0.3))));
+    send(&mut window, Command::from(LinesCommand::End(LineEnd::Open)));
+    for mode in [LineToolMode::Corners, LineToolMode::Edit] {
+        send(&mut window, Command::from(LinesCommand::Mode(mode)));
+        send(&mut window, Command::from(LinesCommand::TakeCorner(Some(0))));
+        look(&mut window, "a selected line");
+    }
     send(&mut window, Command::from(StepCommand::Begin(None)));
     wait_until(&mut window, |window| {
         entries(window).iter().any(|item| item.title == "Next step" && item.enabled)

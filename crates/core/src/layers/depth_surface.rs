@@ -22,11 +22,7 @@ impl<'a> DepthSurface<'a> {
     /// Returns the depth at a point, in metres, positive downwards: linear between the centres of pixels.
     /// `None` where no layer has a value.
     pub fn depth_at(&self, at: DVec2) -> Option<f64> {
-        let covering = self.0.iter().filter(|(layer, _)| covers(layer, at));
-        let mut values = covering.filter_map(|(_, depths)| {
-            depths.source().raster.raster().linear_at(at).map(|value| depths.sizes().depth_of(value))
-        });
-        values.next()
+        first_depth(self.0.iter().copied(), at)
     }
 
     /// Returns the greatest depth of any pixel, in metres; 0 where all is land.
@@ -38,6 +34,84 @@ impl<'a> DepthSurface<'a> {
         });
         depths.fold(0.0, f64::max)
     }
+}
+
+/// The surface of a [`DepthSurface`] with layers of its own, whose rasters it shares, for work on other
+/// threads.
+#[derive(Clone, Debug)]
+pub struct DepthField {
+    /// From the top to the bottom.
+    layers: Vec<Layer>,
+    deepest: f64,
+}
+
+/// The depths in a rectangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthRange {
+    /// The least and the greatest depth in metres, positive downwards, or a wider range; `None` where no
+    /// layer has a value.
+    pub ends: Option<[f64; 2]>,
+    /// Whether some points may have no depth.
+    pub has_gaps: bool,
+}
+
+impl DepthField {
+    /// Returns the surface of a stack of layers, from the bottom to the top; `None` if no visible layer is
+    /// one of depths.
+    pub fn of(layers: &[Layer]) -> Option<Self> {
+        let surface = DepthSurface::of(layers)?;
+        let layers = surface.0.iter().map(|&(layer, _)| layer.clone()).collect();
+        Some(Self { layers, deepest: surface.deepest() })
+    }
+
+    fn depths(&self) -> impl Iterator<Item = (&Layer, &Depths)> {
+        self.layers.iter().filter_map(|layer| Some((layer, layer.kind.get()?)))
+    }
+
+    /// See [`DepthSurface::depth_at`].
+    pub fn depth_at(&self, at: DVec2) -> Option<f64> {
+        first_depth(self.depths(), at)
+    }
+
+    /// Returns the depths in a closed rectangle in world units.
+    pub fn range_in(&self, area: &Rect) -> DepthRange {
+        let mut all = DepthRange { ends: None, has_gaps: true };
+        for (layer, depths) in self.depths() {
+            let values = depths.source().raster.values_in(area);
+            if let Some(range) = values.range {
+                let [a, b] =
+                    [range.least, range.greatest].map(|value| depths.sizes().depth_of(f64::from(value)));
+                let (least, greatest) = (a.min(b), a.max(b));
+                let joined = |ends: [f64; 2]| [ends[0].min(least), ends[1].max(greatest)];
+                all.ends = Some(all.ends.map_or([least, greatest], joined));
+            }
+            if layer.mask.is_none() && !values.has_gaps {
+                // What is below this layer does not count.
+                all.has_gaps = false;
+                break;
+            }
+        }
+        all
+    }
+
+    /// See [`DepthSurface::deepest`].
+    pub fn deepest(&self) -> f64 {
+        self.deepest
+    }
+
+    /// Returns the shortest side of a pixel, in world units.
+    pub fn pixel_size(&self) -> f64 {
+        let sides = self.depths().map(|(_, depths)| depths.source().raster.raster().pixel_size());
+        sides.map(DVec2::min_element).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Returns the depth at a point of the first of some layers that covers it and has a value.
+fn first_depth<'a>(mut layers: impl Iterator<Item = (&'a Layer, &'a Depths)>, at: DVec2) -> Option<f64> {
+    layers.find_map(|(layer, depths)| {
+        let value = depths.source().raster.raster().linear_at(at).filter(|_| covers(layer, at))?;
+        Some(depths.sizes().depth_of(value))
+    })
 }
 
 /// Returns the layers of depths above a layer of depths in its stack that hide it where they have values:

@@ -59,7 +59,7 @@ pub use courant::{CourantFit, EdgeTimes, LargestTimeStep};
 pub use curve::{CurveError, FineAt, ValueCurve};
 pub use depth::{DepthError, DepthRule, DepthSizes, Depths, PositiveDepth, wavelength};
 pub use depth_slope::DepthSlope;
-pub use depth_surface::DepthSurface;
+pub use depth_surface::{DepthField, DepthRange, DepthSurface};
 use depth_surface::{hidden_differently, hiding, surface_changes};
 pub(crate) use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};

@@ -15,6 +15,7 @@
 //!   PathFigures            → its cost, rounded up: no path needs to cost more
 //!   LowerBound             → no path costs less
 //!   Certificate            → a better bound, on a mesh of its own, as close as asked for
+//!   DeepestWay             → a path whose cost is low where water is deep
 //! ```
 
 mod adaptation;
@@ -24,6 +25,7 @@ mod bisection;
 mod certificate;
 mod corridor;
 mod cost;
+mod deepest;
 mod detail;
 mod error;
 mod follow;
@@ -68,6 +70,7 @@ pub use certificate::{
 };
 pub use corridor::Corridor;
 pub use cost::{CostDensity, CostModel, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
+pub use deepest::{DeepestWay, DeepestWayError, DepthCost};
 pub use error::{PathError, Waypoint};
 pub use follow::PlannerMove;
 pub use front::{Front, FrontPoint};

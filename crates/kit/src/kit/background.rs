@@ -39,6 +39,10 @@ pub enum Outcome {
     PartRead(Vec<Command>),
     /// A file was not read.
     NotRead(String),
+    /// Something was found for the document. The commands use it.
+    Found(Vec<Command>),
+    /// Nothing was found, for this reason.
+    NotFound(String),
     /// An export ended, as it should or cancelled: a sentence about it.
     Exported(String),
     /// A file was not written. A window that was about to close stays open, so that the message is seen.
@@ -70,6 +74,8 @@ impl Outcome {
 pub enum Aim {
     /// A file is read. Cancelled, it is forgotten at once.
     Read,
+    /// Something is found for the document, without a file. Cancelled, it is forgotten at once.
+    Find,
     /// A file is written that is not the document's.
     Export,
     /// This version of the document is saved.
@@ -77,9 +83,19 @@ pub enum Aim {
 }
 
 impl Aim {
+    /// Returns whether something is written.
+    fn writes(self) -> bool {
+        matches!(self, Self::Export | Self::Save(_))
+    }
+
+    fn kind(self) -> JobKind {
+        if self.writes() { JobKind::Write } else { JobKind::Read }
+    }
+
     fn doing(self) -> &'static str {
         match self {
             Self::Read => "Reading",
+            Self::Find => "Finding",
             Self::Export => "Writing",
             Self::Save(_) => "Saving",
         }
@@ -151,32 +167,33 @@ impl Background {
     pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
         let meter = Meter::default();
         let (watched, threads) = (meter.clone(), self.threads);
-        let kind = if aim == Aim::Read { JobKind::Read } else { JobKind::Write };
-        let job = self.jobs.start(kind, move |output| {
+        let job = self.jobs.start(aim.kind(), move |output| {
             output.send(Threads::new(threads).run(|| work(&watched)));
         });
         self.enter(aim, path, meter, job);
     }
 
     /// Starts work as [`Self::start`] does, in slices: the first one makes a state, and the others are called
-    /// until one returns the outcome.
+    /// until one returns the outcome. The meter only shows how far it is.
     #[track_caller]
     pub fn start_in_slices<S: Send + 'static>(
         &mut self,
         aim: Aim,
         path: &Path,
         begin: impl FnOnce() -> Option<S> + Send + 'static,
-        mut slice: impl FnMut(&mut S) -> Option<Outcome> + Send + 'static,
+        mut slice: impl FnMut(&mut S, &Meter) -> Option<Outcome> + Send + 'static,
     ) {
-        let kind = if aim == Aim::Read { JobKind::Read } else { JobKind::Write };
-        let job = self.jobs.start_in_slices(kind, begin, move |state, output| match slice(state) {
-            Some(outcome) => {
-                output.send(outcome);
-                Progress::Done
-            }
-            None => Progress::More,
-        });
-        self.enter(aim, path, Meter::default(), job);
+        let meter = Meter::default();
+        let watched = meter.clone();
+        let job =
+            self.jobs.start_in_slices(aim.kind(), begin, move |state, output| match slice(state, &watched) {
+                Some(outcome) => {
+                    output.send(outcome);
+                    Progress::Done
+                }
+                None => Progress::More,
+            });
+        self.enter(aim, path, meter, job);
     }
 
     /// Enters the job of work on a file, and the meter that it checks.
@@ -207,7 +224,7 @@ impl Background {
         let at = self.works.iter().position(|work| work.id == id)?;
         let (aim, name) = (self.works[at].aim, self.works[at].name.clone());
         self.works[at].meter.cancel();
-        if aim == Aim::Read {
+        if !aim.writes() {
             self.works.remove(at);
         }
         Some((aim, name))
@@ -215,7 +232,7 @@ impl Background {
 
     /// Returns the names of files that are being written, without cancelled ones.
     pub fn being_written(&self) -> impl Iterator<Item = &str> {
-        let wanted = |work: &&FileWork| work.aim != Aim::Read && !work.meter.is_cancelled();
+        let wanted = |work: &&FileWork| work.aim.writes() && !work.meter.is_cancelled();
         self.works.iter().filter(wanted).map(|work| work.name.as_str())
     }
 
@@ -256,7 +273,7 @@ impl Background {
     /// Waits until nothing is being written, or the time is over. Returns whether anything was: its
     /// outcome may begin the next save.
     pub fn wait_for_writing(&self, longest: Duration) -> bool {
-        let writes = self.works.iter().any(|work| work.aim != Aim::Read);
+        let writes = self.works.iter().any(|work| work.aim.writes());
         if writes {
             self.jobs.wait_for_writing(longest);
         }

@@ -1,4 +1,4 @@
-//! Areas that are drawn in one drag: a rectangle, a circle, or an outline by free hand.
+//! Areas and lines that are drawn in one drag: a rectangle, a circle, an outline or a line by free hand.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 use glam::DVec2;
@@ -17,12 +17,17 @@ pub enum DraggedShape {
     Circle,
     /// The outline that the pointer follows; its end is joined to its beginning.
     Lasso,
+    /// The line that the pointer follows.
+    Trail,
 }
 
 /// Corners of a circle. The polygon deviates from the circle by a 1,800th of the radius at most.
 const CIRCLE_CORNERS: u32 = 96;
 /// Least distance between corners of a lasso, in points: a hand is no steadier.
 const LASSO_STEP: f32 = 2.0;
+/// How far corners that are left out are from a line by free hand, in points at most. Each corner of a line
+/// asks for a node of the mesh.
+const THINNING: f32 = 2.0;
 
 /// Begins a shape, which adds or cuts away once the button is released.
 pub fn press_shape(
@@ -39,7 +44,8 @@ pub fn press_shape(
 #[derive(Debug)]
 struct ShapeDrag {
     shape: DraggedShape,
-    /// The corners of a lasso so far, in points; of another shape only the point where the button went down.
+    /// The corners of a lasso or a line so far, in points; of another shape only the point where the button
+    /// went down.
     trail: Vec<Pos2>,
     /// The position of the pointer, in points.
     to: Pos2,
@@ -69,6 +75,7 @@ impl ShapeDrag {
                 let around = Rect::from_points(&self.trail);
                 self.trail.len() >= 3 && around.width().max(around.height()) > CLICK_SLACK
             }
+            DraggedShape::Trail => self.trail.iter().any(|at| at.distance(from) > CLICK_SLACK),
         }
     }
 
@@ -84,8 +91,27 @@ impl ShapeDrag {
                 let middle = pointer.rounded_world(from);
                 circle(middle, middle.distance(pointer.world(self.to)))
             }
-            DraggedShape::Lasso => self.trail.iter().map(|&at| pointer.world(at)).collect(),
+            DraggedShape::Lasso | DraggedShape::Trail => {
+                self.trail.iter().map(|&at| pointer.world(at)).collect()
+            }
         }
+    }
+
+    /// Returns the corners of a line by free hand, in world units.
+    fn line(&self, at: Pos2, pointer: &Pointer<'_>) -> Vec<DVec2> {
+        let mut trail = self.trail.clone();
+        // The last point of the trail, unless it is the first, gives way to where the button was released.
+        if trail.len() > 1 && trail[trail.len() - 1].distance(at) < LASSO_STEP {
+            trail.pop();
+        }
+        trail.push(at);
+        let corners = thinned(&trail, THINNING);
+        let mut line: Vec<DVec2> = corners.iter().map(|&at| pointer.world(at)).collect();
+        let last = line.len() - 1;
+        for end in [0, last] {
+            line[end] = (self.commands.place)(pointer, corners[end]);
+        }
+        line
     }
 
     /// Returns the outline on the screen, in points.
@@ -101,9 +127,32 @@ impl ShapeDrag {
                 let at = |corner: DVec2| from + radius * Vec2::new(corner.x as f32, corner.y as f32);
                 circle(DVec2::ZERO, 1.0).into_iter().map(at).collect()
             }
-            DraggedShape::Lasso => self.trail.clone(),
+            DraggedShape::Lasso | DraggedShape::Trail => self.trail.clone(),
         }
     }
+}
+
+/// Returns a line without the corners that are at most a distance from it (Douglas and Peucker).
+fn thinned(line: &[Pos2], most: f32) -> Vec<Pos2> {
+    let last = line.len() - 1;
+    let mut stays = vec![false; line.len()];
+    (stays[0], stays[last]) = (true, true);
+    let mut parts = vec![[0, last]];
+    while let Some([from, to]) = parts.pop() {
+        let distance = |at: &usize| distance_from_segment(line[*at], [line[from], line[to]]);
+        let farthest = (from + 1..to).max_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(farthest) = farthest.filter(|at| distance(at) > most) {
+            stays[farthest] = true;
+            parts.extend([[from, farthest], [farthest, to]]);
+        }
+    }
+    line.iter().zip(stays).filter(|(_, stays)| *stays).map(|(&at, _)| at).collect()
+}
+
+fn distance_from_segment(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
+    let (along, way) = (to - from, at - from);
+    let share = if along == Vec2::ZERO { 0.0 } else { (way.dot(along) / along.length_sq()).clamp(0.0, 1.0) };
+    at.distance(from + share * along)
 }
 
 fn circle(middle: DVec2, radius: f64) -> Ring {
@@ -115,13 +164,18 @@ impl Gesture for ShapeDrag {
     fn moved(&mut self, at: Pos2, _pointer: &Pointer<'_>, _commands: &mut Vec<Command>) {
         self.to = at;
         let is_corner = self.trail.last().is_some_and(|last| last.distance(at) >= LASSO_STEP);
-        if self.shape == DraggedShape::Lasso && is_corner {
+        if matches!(self.shape, DraggedShape::Lasso | DraggedShape::Trail) && is_corner {
             self.trail.push(at);
         }
     }
 
-    fn released(&self, _at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        if self.has_size() {
+    fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
+        if !self.has_size() {
+            return;
+        }
+        if self.shape == DraggedShape::Trail {
+            commands.extend(self.commands.draw_line.map(|draw| draw(self.line(at, pointer))));
+        } else {
             let area = CutShape::Ring(self.ring(pointer));
             commands.extend([(self.commands.draw)(area, self.adds), Command::from(EditCommand::EndGesture)]);
         }
@@ -140,7 +194,7 @@ impl Gesture for ShapeDrag {
             marks::paint_line_preview(painter, self.trail[0], self.to);
         }
         for stroke in [Stroke::new(3.5, Color32::from_black_alpha(130)), Stroke::new(1.5, Color32::WHITE)] {
-            let is_open = self.shape == DraggedShape::Lasso;
+            let is_open = matches!(self.shape, DraggedShape::Lasso | DraggedShape::Trail);
             let line = outline.clone();
             painter.add(if is_open { Shape::line(line, stroke) } else { Shape::closed_line(line, stroke) });
         }

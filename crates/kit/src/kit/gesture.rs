@@ -7,6 +7,7 @@ use glam::{DVec2, dvec2};
 
 use crate::kit::command::{Command, EditCommand};
 use crate::kit::heights::SpaceSight;
+use crate::kit::session::Session;
 use crate::kit::tools::Tools;
 use meshbrush_render::scene::Camera;
 
@@ -111,6 +112,10 @@ pub struct Pointer<'a> {
     pub space: Option<SpaceSight<'a>>,
     /// The selected tool and its settings.
     pub tools: &'a Tools,
+    /// The document and its mesh.
+    pub session: &'a Session,
+    /// The modifiers held.
+    pub modifiers: Modifiers,
     /// Physical pixels for a point.
     pub px_per_point: f64,
 }

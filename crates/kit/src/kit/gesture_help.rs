@@ -14,6 +14,8 @@ pub enum GesturePlace {
     Threats,
     /// With the region tool.
     Regions,
+    /// With the line tool.
+    Lines,
     /// On the canvas, with any tool.
     Canvas,
     /// On a number or a slider of a panel.
@@ -28,6 +30,7 @@ impl GesturePlace {
             Self::Querying => "Inspecting triangles",
             Self::Threats => "Threats",
             Self::Regions => "Drawing regions",
+            Self::Lines => "Drawing lines",
             Self::Canvas => "On the canvas, with any tool",
             Self::Panel => "In the panels",
         }

@@ -255,6 +255,55 @@ pub fn paint_rimmed_line(painter: &Painter, points: impl Iterator<Item = Pos2>, 
     }
 }
 
+/// A dashed line in a colour on a dark halo. The dashes stay where they are when the view is moved.
+pub fn paint_dashed_line(painter: &Painter, points: impl Iterator<Item = Pos2>, color: Color32, width: f32) {
+    let view = painter.clip_rect().expand(width);
+    let (mut last, mut length) = (None, 0.0);
+    for point in points {
+        if let Some(from) = last.replace(point) {
+            if let Some([start, end]) = clipped([from, point], view) {
+                painter.line_segment([start, end], Stroke::new(width + 2.0, Color32::from_black_alpha(120)));
+                let dashes = dashes([start, end], length + from.distance(start));
+                painter.extend(dashes.map(|ends| Shape::line_segment(ends, Stroke::new(width, color))));
+            }
+            length += from.distance(point);
+        }
+    }
+}
+
+/// Length of a dash, and of the space after it, in points.
+const DASH: f32 = 6.0;
+const DASH_GAP: f32 = 4.0;
+
+/// Returns the dashes of a segment that begins at a distance along a line.
+fn dashes([from, to]: [Pos2; 2], begins_at: f32) -> impl Iterator<Item = [Pos2; 2]> {
+    let (length, period) = (from.distance(to), DASH + DASH_GAP);
+    let first = -(begins_at % period);
+    let count = ((length - first) / period).ceil().max(0.0) as usize;
+    let at = move |distance: f32| from + distance.clamp(0.0, length) / length * (to - from);
+    let starts = (0..count).map(move |number| first + number as f32 * period);
+    starts.filter(|start| start + DASH > 0.0).map(move |start| [at(start), at(start + DASH)])
+}
+
+/// Returns the part of a segment in a rectangle (Liang and Barsky).
+fn clipped([from, to]: [Pos2; 2], view: Rect) -> Option<[Pos2; 2]> {
+    let along = to - from;
+    let (mut enters, mut leaves) = (0.0_f32, 1.0_f32);
+    for axis in 0..2 {
+        let sides = [view.min[axis] - from[axis], view.max[axis] - from[axis]];
+        if along[axis] == 0.0 {
+            if sides[0] > 0.0 || sides[1] < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let [first, second] = sides.map(|side| side / along[axis]);
+        enters = enters.max(first.min(second));
+        leaves = leaves.min(first.max(second));
+    }
+    (enters < leaves).then(|| [from + enters * along, from + leaves * along])
+}
+
 /// Returns the parts of a line in view, without edges that are too short to be seen, and their length in
 /// points.
 fn lines_in_view(painter: &Painter, points: impl Iterator<Item = Pos2>, width: f32) -> (Vec<Vec<Pos2>>, f32) {
@@ -320,7 +369,15 @@ pub fn paint_cut_shape(painter: &Painter, cut_shape: &CutShape, at: &dyn Fn(DVec
 
 /// An open polygon: its next edge follows the pointer, and its corners can be dragged.
 pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<Pos2>) {
-    let Some(&first) = corners.first() else { return };
+    if let ([first, _, _, ..], Some(pointer)) = (corners, pointer) {
+        let closing = Stroke::new(1.0, Color32::from_white_alpha(110));
+        painter.extend(Shape::dashed_line(&[pointer, *first], closing, 3.0, 5.0));
+    }
+    paint_open_line(painter, corners, pointer);
+}
+
+/// A line that is being drawn, as [`paint_open_polygon`], without an edge back to its first corner.
+pub fn paint_open_line(painter: &Painter, corners: &[Pos2], pointer: Option<Pos2>) {
     for edge in corners.windows(2) {
         painter.line_segment([edge[0], edge[1]], Stroke::new(3.0, Color32::from_black_alpha(110)));
         painter.line_segment([edge[0], edge[1]], Stroke::new(1.5, Color32::WHITE));
@@ -328,17 +385,15 @@ pub fn paint_open_polygon(painter: &Painter, corners: &[Pos2], pointer: Option<P
     if let (Some(pointer), Some(&last)) = (pointer, corners.last()) {
         paint_line_preview(painter, last, pointer);
     }
-    if corners.len() >= 3
-        && let Some(pointer) = pointer
-    {
-        let closing = Stroke::new(1.0, Color32::from_white_alpha(110));
-        painter.extend(Shape::dashed_line(&[pointer, first], closing, 3.0, 5.0));
-    }
+    paint_handles(painter, corners);
+}
+
+/// Corners that can be dragged; the first one is larger.
+pub fn paint_handles(painter: &Painter, corners: &[Pos2]) {
     let rim = Stroke::new(1.5, Color32::from_black_alpha(200));
-    for &corner in &corners[1..] {
-        painter.circle(corner, 3.5, Color32::WHITE, rim);
+    for (number, &corner) in corners.iter().enumerate().rev() {
+        painter.circle(corner, if number == 0 { 5.0 } else { 3.5 }, Color32::WHITE, rim);
     }
-    painter.circle(first, 5.0, Color32::WHITE, rim);
 }
 
 /// A rectangle that is being drawn.

@@ -80,7 +80,7 @@ pub use ctx::{Ctx, EditRecorder, NO_LIMIT, PictureOverlays};
 pub use data_file::{DataContents, DataFile, Preview, RasterFacts, look_at, seen_shapes};
 pub use data_role::DataRole;
 pub use dragged_shape::{DraggedShape, press_shape};
-pub use drawing::{DrawingCommands, press_brush, press_corner};
+pub use drawing::{DrawingCommands, UNDER_POINTER, press_brush, press_corner};
 pub use empty_document::{EmptyDocument, raster_frame, show_over_extent, show_with_layer, with_space_around};
 pub use entry::{CatalogItem, DIGITS, Menu, NOT_QUERYING, QUERYING, Submenu};
 pub use feature::{Feature, Row};

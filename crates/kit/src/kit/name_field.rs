@@ -21,7 +21,8 @@ pub fn name_field(ui: &mut Ui, of: &str, current: &str) -> Option<String> {
         // Another one is selected, or the name was changed elsewhere.
         typed = TypedName { text: current.to_owned(), of: current.to_owned() };
     }
-    let response = TextRow::new("Name", &mut typed.text).show(ui);
+    let help = format!("Name of the {of}, in lists and files.");
+    let response = TextRow::new("Name", &mut typed.text).help(&help).show(ui);
     let changed = typed.text != current;
     let new = (response.lost_focus() && changed).then(|| typed.text.clone());
     ui.data_mut(|data| data.insert_temp(id, typed));

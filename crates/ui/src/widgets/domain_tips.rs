@@ -51,6 +51,18 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
         "Opens all of the boundary where the water is deeper than this, by the layers of depths.",
     ),
     ("Join with next", "Makes one piece of this one and the next along the boundary."),
-    ("Name", "Name of the piece in files."),
     ("Type", "What the piece is for coastal solvers: open, land or an inflow, and how land treats the flow."),
+    (
+        "Draw by",
+        "What a press does: sets the next corner of a line, or begins a line by free hand, a rectangle or a circle, or sets an end of the deepest way; or it selects a line and moves its corners.",
+    ),
+    (
+        "Snap",
+        "Corners snap to ends, corners and segments of lines, and to the outline, within 8 points[; {snap-corners-of-lines} switches]. Alt does the opposite.",
+    ),
+    ("Draw lines", "Selects the line tool: click each corner of a line on the canvas."),
+    ("Add lines…", "Reads lines and polygons from a file, along which the mesh that files get has edges."),
+    ("Zoom to line", "Shows all of the selected line."),
+    ("Delete line", "Deletes the selected line."),
+    ("Delete all lines", "Deletes all lines of the document."),
 ];

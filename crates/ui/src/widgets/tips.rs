@@ -303,6 +303,7 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Eraser", "Takes paint away, and the mesh coarsens."),
     ("Query", "Shows the triangle that you click and its neighbours."),
     ("Domain", "Adds area to the domain or removes it."),
+    ("Line", "Draws lines along which the mesh has edges, and moves their corners."),
     ("Threats", "Places threats on the selected layer of threats, moves them and changes their ranges."),
     ("Boundary", "Names, splits and joins the pieces of the boundary, and sets their types for solvers."),
     ("Pan", "Moves the view."),

@@ -14,7 +14,7 @@ use meshbrush_ui::widgets::Icon;
 
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {
-    place: 7,
+    place: 8,
     cursor: CursorIcon::PointingHand,
     tab: Some(Tab::Domain),
     options: &BOUNDARY_OPTIONS,

@@ -9,7 +9,7 @@ use meshbrush_kit::kit::command::Command;
 use meshbrush_kit::kit::tools::{ToolSettings, Tools, first_settings};
 use meshbrush_kit::kit::{
     CLICK_SLACK, DraggedShape, DrawingCommands, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec,
-    marks, press_brush, press_corner, press_shape,
+    UNDER_POINTER, marks, press_brush, press_corner, press_shape,
 };
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
@@ -131,14 +131,17 @@ static COMMANDS: DrawingCommands = DrawingCommands {
         Some(DomainCommand::Reshape(cut_shape, _)) => Some(cut_shape),
         _ => None,
     },
+    draw_line: None,
     add_corner: |corner| Command::from(DomainCommand::AddCorner(corner)),
     move_corner: |index, corner| Command::from(DomainCommand::MoveCorner(index, corner)),
     close: || Command::from(DomainCommand::ClosePolygon),
+    end: || Command::from(DomainCommand::ClosePolygon),
+    place: UNDER_POINTER,
 };
 
 /// The secondary button closes the polygon.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    COMMANDS.close_if_begun(&tools.settings::<DomainTool>().corners, commands)
+    COMMANDS.end_if_begun(&tools.settings::<DomainTool>().corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {

@@ -1,13 +1,17 @@
-//! The lines, with what of each is on edges of the mesh.
+//! The lines, with what of each is on edges of the mesh, and what can be done with the selected one.
 
-use eframe::egui::Ui;
+use eframe::egui::{Frame, Ui};
 
-use super::LinesCommand;
 use super::files::ADD_LINES;
+use super::places::{fit_in, reason};
+use super::{LineToolMode, LinesCommand};
+use crate::app::features::lines::LineTool;
+use meshbrush_core::domain::Line;
 use meshbrush_core::outline::LineFit;
 use meshbrush_kit::kit::command::{Command, FileCommand, ViewCommand};
-use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, remark};
+use meshbrush_kit::kit::{FrameState, Panel, Tab, button_rows, name_field, remark};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_ui::theme::tokens;
 use meshbrush_ui::widgets::{Section, ValueRow, format};
 
 /// All lines of the document.
@@ -15,63 +19,126 @@ pub static LINES: Panel = Panel { name: "lines", tab: Tab::Domain, place: 1, sho
 
 /// The most lines in the list.
 const MOST_ROWS: usize = 50;
-/// The area that is shown around a place, in lengths of the part that is not on edges.
-const AREA_IN_LENGTHS: f64 = 4.0;
+/// Space around a line that is shown as a whole, as a share of its size.
+const SPACE_AROUND: f64 = 0.1;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let lines = &state.session.document().settings().lines;
     let note = if lines.is_empty() { String::new() } else { format::count(lines.len() as u64) };
-    Section::new("Lines").note(&note).closed().show(ui, |ui| {
+    let section = Section::new("Lines").note(&note).closed().reveal(LINES.is_revealed(state));
+    section.show(ui, |ui| {
         if lines.is_empty() {
             remark(
                 ui,
-                "The mesh that files get can have edges along lines, such as a breakwater or a thalweg.",
+                "The mesh that files get can have edges along lines, such as a breakwater or a thalweg. Draw them with \
+                 the line tool[ ({line})], or add them from a file.",
             );
         }
-        let fits = state.session.derived().map(|derived| &*derived.line_fits);
+        let selected = state.tools.settings::<LineTool>().selected_in(lines);
         for (number, line) in lines.iter().enumerate().take(MOST_ROWS) {
-            let fit = fits.and_then(|fits| fits.get(number)).filter(|fit| fit.name == line.name);
-            line_row(ui, &line.name, fit, commands);
+            // Lines of files can have the same name.
+            ui.push_id(number, |ui| line_row(ui, state, (number, line), selected == Some(number), commands));
         }
-        buttons(ui, lines.len(), commands);
+        if lines.len() > MOST_ROWS {
+            remark(ui, "Click the others on the canvas, with Move corners of the line tool.");
+        }
+        if let Some(number) = selected {
+            ui.add_space(4.0);
+            selected_rows(ui, state, (number, &lines[number]), commands);
+        }
+        buttons(ui, selected, lines, commands);
     });
 }
 
-/// Shows how much of a line is on edges. A click goes to the first place where it is not.
-fn line_row(ui: &mut Ui, name: &str, fit: Option<&LineFit>, commands: &mut Vec<Command>) {
-    let Some(fit) = fit else {
-        ValueRow::new(name, "…").show(ui);
-        return;
-    };
-    let share = 100.0 * fit.length_on_edges / fit.length.max(f64::MIN_POSITIVE);
-    let value = format!("{} %", format::fixed(share, 1));
-    let Some(first) = fit.unresolved.first() else {
-        ValueRow::new(name, &value).help("How much of the line is on edges of the mesh.").show(ui);
-        return;
-    };
-    let help = format!(
-        "How much of the line is on edges of the mesh. {} of it are not: a click goes to the first.",
-        match fit.unresolved.len() {
-            1 => "1 part".to_owned(),
-            count => format!("{} parts", format::count(count as u64)),
-        }
-    );
-    let row = ValueRow::new(name, &value).help(&help).stands_out(true).link().show(ui);
-    if row.clicked() {
-        let area = Rect::around(first.place, AREA_IN_LENGTHS * first.length.max(f64::MIN_POSITIVE));
-        commands.push(Command::from(ViewCommand::ShowArea(area)));
+/// Shows how much of a line is on edges. A click selects it.
+fn line_row(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    (number, line): (usize, &Line),
+    is_selected: bool,
+    commands: &mut Vec<Command>,
+) {
+    let fit = fit_in(state.session, number);
+    let value = fit.map_or("…".to_owned(), share_on_edges);
+    let is_whole = fit.is_none_or(|fit| fit.unresolved.is_empty());
+    let help = "How much of the line is on edges of the mesh. A click selects it.";
+    let ground = if is_selected { tokens(ui).field } else { eframe::egui::Color32::TRANSPARENT };
+    let row = Frame::new()
+        .fill(ground)
+        .corner_radius(4)
+        .show(ui, |ui| ValueRow::new(&line.name, &value).help(help).stands_out(!is_whole).link().show(ui));
+    if row.inner.clicked() {
+        commands.push(Command::from(LinesCommand::Select((!is_selected).then_some(number))));
     }
 }
 
-fn buttons(ui: &mut Ui, count: usize, commands: &mut Vec<Command>) {
+/// Returns the share of a line on edges: never 100 % where a part is not.
+fn share_on_edges(fit: &LineFit) -> String {
+    let share = 100.0 * fit.length_on_edges / fit.length.max(f64::MIN_POSITIVE);
+    let most = if fit.unresolved.is_empty() { 100.0 } else { 99.9 };
+    format!("{} %", format::fixed(share.min(most), 1))
+}
+
+/// Name and length of the selected line, and the places where it is not on edges.
+fn selected_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    (number, line): (usize, &Line),
+    commands: &mut Vec<Command>,
+) {
+    if let Some(name) = name_field(ui, "line", &line.name) {
+        commands.push(Command::from(LinesCommand::Rename(number, name)));
+    }
+    let length = format::length(line.length(), state.unit());
+    _ = ValueRow::new("Length", &length).help("Length of the line, in the unit of the document.").show(ui);
+    if let Some(fit) = fit_in(state.session, number) {
+        place_rows(ui, state, fit, commands);
+    }
+}
+
+/// A click goes from place to place.
+fn place_rows(ui: &mut Ui, state: &FrameState<'_>, fit: &LineFit, commands: &mut Vec<Command>) {
+    let count = fit.unresolved.len();
+    if count == 0 {
+        _ = ValueRow::new("Not on edges", "nothing").help("All of the line is on edges.").show(ui);
+        return;
+    }
+    let shown = state.tools.settings::<LineTool>().shown_place.filter(|&place| place < count);
+    let places = if count == 1 { "place" } else { "places" };
+    let value = match shown {
+        Some(place) => format!("{} of {}", format::count(place as u64 + 1), format::count(count as u64)),
+        None => format!("{} {places}", format::count(count as u64)),
+    };
+    let help = "Where the line is not on edges of the mesh. A click goes to the next place.";
+    if ValueRow::new("Not on edges", &value).help(help).stands_out(true).link().show(ui).clicked() {
+        let next = shown.map_or(0, |place| place + 1);
+        commands.push(Command::from(LinesCommand::ShowPlace(next)));
+    }
+    remark(ui, &reason(&fit.unresolved[shown.unwrap_or(0)], state.unit()));
+}
+
+fn buttons(ui: &mut Ui, selected: Option<usize>, lines: &[Line], commands: &mut Vec<Command>) {
     ui.add_space(4.0);
-    let last = Command::from(LinesCommand::Remove(count.saturating_sub(1)));
+    if let Some(number) = selected {
+        let area = area_of(&lines[number]);
+        let show = Command::from(ViewCommand::ShowArea(area.unwrap_or(Rect::UNIT)));
+        let row = [
+            ("Zoom to line", area.is_some(), show),
+            ("Delete line", true, Command::from(LinesCommand::Remove(number))),
+        ];
+        button_rows(ui, [row], commands);
+    }
+    let draw = Command::from(LinesCommand::Mode(LineToolMode::Corners));
     let rows = [
-        vec![("Add lines…", true, Command::from(FileCommand::Ask(&ADD_LINES)))],
-        vec![
-            ("Delete last line", count > 0, last),
-            ("Delete all lines", count > 0, Command::from(LinesCommand::RemoveAll)),
-        ],
+        vec![("Draw lines", true, draw), ("Add lines…", true, Command::from(FileCommand::Ask(&ADD_LINES)))],
+        vec![("Delete all lines", !lines.is_empty(), Command::from(LinesCommand::RemoveAll))],
     ];
     button_rows(ui, rows, commands);
+}
+
+/// Returns an area around a line; `None` where it has no finite corner.
+fn area_of(line: &Line) -> Option<Rect> {
+    let area = Rect::holding(line.points.iter().copied().filter(|point| point.is_finite()))?;
+    let size = area.size().max_element();
+    (size > 0.0).then(|| area.expanded(SPACE_AROUND * size))
 }

@@ -9,8 +9,8 @@ use meshbrush_core::document::DrawnShape;
 use meshbrush_kit::kit::command::{Command, EditCommand};
 use meshbrush_kit::kit::tools::{ToolSettings, Tools, first_settings};
 use meshbrush_kit::kit::{
-    DraggedShape, DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
-    press_shape,
+    DraggedShape, DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, UNDER_POINTER, press_brush,
+    press_corner, press_shape,
 };
 use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use meshbrush_ui::widgets::Icon;
@@ -131,9 +131,12 @@ static COMMANDS: DrawingCommands = DrawingCommands {
         Some(RegionCommand::Draw(DrawnShape::Area(area), _)) => Some(area),
         _ => None,
     },
+    draw_line: None,
     add_corner: |corner| Command::from(RegionCommand::AddCorner(corner)),
     move_corner: |index, corner| Command::from(RegionCommand::MoveCorner(index, corner)),
     close: || Command::from(RegionCommand::Close),
+    end: || Command::from(RegionCommand::Close),
+    place: UNDER_POINTER,
 };
 
 /// Alt swaps adding and cutting.
@@ -163,7 +166,7 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
 
 /// The secondary button closes the polygon, or ends the line.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    COMMANDS.close_if_begun(&tools.settings::<RegionTool>().corners, commands)
+    COMMANDS.end_if_begun(&tools.settings::<RegionTool>().corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {

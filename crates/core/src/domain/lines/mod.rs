@@ -137,7 +137,7 @@ impl Line {
     }
 
     /// Returns the edges from each corner to the next.
-    pub(crate) fn edges(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+    pub fn edges(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
         let closing = match self.points[..] {
             [first, .., last] if self.closed => Some([last, first]),
             _ => None,

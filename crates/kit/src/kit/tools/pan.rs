@@ -11,7 +11,7 @@ use meshbrush_ui::widgets::Icon;
 
 /// Moves the view.
 pub static PAN: ToolSpec = ToolSpec {
-    place: 8,
+    place: 9,
     cursor: CursorIcon::Grab,
     hint: |_| HINT,
     in_space: true,

@@ -18,6 +18,8 @@ impl Icon {
     pub const DOMAIN: Self = Self("\u{eb39}");
     /// Draw regions.
     pub const REGION: Self = Self("\u{eb03}");
+    /// Draw lines.
+    pub const LINE: Self = Self("\u{e922}");
     /// Name the boundary.
     pub const BOUNDARY: Self = Self("\u{e893}");
     /// Move the view.

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use super::LinesCommand;
+use crate::app::features::lines::LinesCommand;
 use crate::app::tests::{
     Window, entries, folder, open_section, send, settings, wait_for_notice, wait_until, window,
 };
