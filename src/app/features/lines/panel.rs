@@ -31,7 +31,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let fits = state.session.derived().map(|derived| &*derived.line_fits);
         for (number, line) in lines.iter().enumerate().take(MOST_ROWS) {
             let fit = fits.and_then(|fits| fits.get(number)).filter(|fit| fit.name == line.name);
-            line_row(ui, &line.name, fit, commands);
+            let label = if line.weir().is_some() { &format!("{} (weir)", line.name) } else { &line.name };
+            line_row(ui, label, fit, commands);
         }
         buttons(ui, lines.len(), commands);
     });

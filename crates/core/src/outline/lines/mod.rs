@@ -41,7 +41,7 @@ use super::lengths::{EdgeTargets, LengthRule};
 use crate::domain::{LinesOnLattice, RegionOnLattice};
 use crate::geometry::{BoxTree, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch};
-pub use edges::{LineEdge, LineEdges};
+pub use edges::{LineEdge, LineEdges, WeirEdges};
 use island::{Island, Shared};
 use local::LocalMesh;
 use patched::{PatchedMesh, PatchedTriangle};
