@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::folder::Folder;
+use crate::runs::seeds;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::project::Project;
 use meshbrush_io::io::recipe::{OpenedRecipe, RecipeFiles, open};
@@ -456,4 +457,26 @@ fn finer_meshes_of_a_sequence_have_the_same_weirs() {
         before = dike.nodes.len();
         assert!(dike.backs.windows(2).all(|pair| pair[0].1[0] < pair[1].1[0]), "the crest rises");
     }
+}
+
+#[test]
+fn random_weirs_that_cross_each_other_and_the_boundary_are_cracks() {
+    let folder = Folder::new("weirs-random");
+    let mut pairs = 0;
+    for seed in seeds(8) {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let mut place = || format!("[{}, {}]", 1.2 * random.f64() - 0.1, 1.2 * random.f64() - 0.1);
+        let lines: String = (0..4)
+            .map(|n| {
+                let points: Vec<String> = (0..2 + n % 3).map(|_| place()).collect();
+                let closed = if n == 3 { "closed = true\ncrest = 2" } else { "crest = 1" };
+                weir(&format!("weir {n}"), &format!("[{}]", points.join(", ")), closed)
+            })
+            .collect();
+        let (grid, _) = written(&folder, &lines, "");
+        grid.check();
+        check_joined(&folder, &grid, &lines);
+        pairs += grid.weirs().map(|list| list.backs.len()).sum::<usize>();
+    }
+    assert!(pairs > 100, "{pairs}");
 }
