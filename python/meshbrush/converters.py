@@ -73,7 +73,8 @@ def to_skfem(mesh: Mesh) -> skfem.MeshTri:
     keys = found.facets[0].astype(np.int64) * count + found.facets[1]
     order = np.argsort(keys)
     names = {}
-    for name, edges in {**mesh.boundary, **_lines(mesh)}.items():
+    all_edges: dict[str, npt.NDArray[Any]] = {**mesh.boundary, **_lines(mesh)}
+    for name, edges in all_edges.items():
         ends = np.sort(edges.astype(np.int64), axis=1)
         names[name] = order[np.searchsorted(keys, ends[:, 0] * count + ends[:, 1], sorter=order)]
     return found.with_boundaries(names)
