@@ -29,10 +29,11 @@ pub use meshbrush_core::build::{
 };
 #[doc(inline)]
 pub use meshbrush_core::domain::{
-    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutFrame,
-    CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, FormulaShape, Line,
-    LinesOnLattice, MOST_CORNERS, MeshBoundary, NamedPolygon, OutlineOnEarth, PieceChoice, PieceFigures,
-    PieceRun, PixelLengths, Polygon, Region, RegionError, RegionOnLattice, Ring, ZeroLineError,
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, Crest,
+    CrestOnGrid, CutFrame, CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape,
+    FormulaShape, Line, LineKind, LineWeirError, LinesOnLattice, MOST_CORNERS, MeshBoundary, NamedPolygon,
+    NoCrest, OutlineOnEarth, PieceChoice, PieceFigures, PieceRun, PixelLengths, Polygon, Region, RegionError,
+    RegionOnLattice, Ring, Weir, WeirError, ZeroLineError,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;
@@ -111,7 +112,7 @@ pub use meshbrush_core::earth::{
 #[doc(inline)]
 pub use meshbrush_core::outline::{
     DerivedMesh, DerivedViolation, EdgeTargets, LineEdge, LineEdges, LineFit, LineProblem, OutlineFit,
-    OutlineFollower, SharedTargets, UnresolvedPlace,
+    OutlineFollower, SharedTargets, UnresolvedPlace, WeirEdges,
 };
 #[doc(inline)]
 pub use meshbrush_io::io::{

@@ -25,15 +25,30 @@ def _edges(mesh: Mesh) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     return edges, marker.astype(np.int64)
 
 
+def _lines(mesh: Mesh) -> dict[str, npt.NDArray[np.int64]]:
+    """Returns the edges along each line. A line with the name of a piece of the boundary is called "line" and its name."""
+    edges = {}
+    for name, runs in mesh.lines.items():
+        while name in mesh.markers or name in edges:
+            name = f"line {name}"
+        edges[name] = np.concatenate([np.column_stack([run[:-1], run[1:]]) for run in runs]).astype(np.int64)
+    return edges
+
+
 def to_meshio(mesh: Mesh) -> meshio.Mesh:
-    """Returns triangles and boundary edges, in two dimensions: with sets and with physical groups."""
+    """Returns triangles, and edges of the boundary and of lines, in two dimensions: with sets and with physical groups."""
     import meshio
 
     edges, marker = _edges(mesh)
     count = len(mesh.triangles)
     inside = max(mesh.markers.values(), default=0) + 1
+    numbers = dict(mesh.markers)
+    for number, (name, along) in enumerate(_lines(mesh).items(), inside + 1):
+        numbers[name] = number
+        edges = np.concatenate([edges, along])
+        marker = np.concatenate([marker, np.full(len(along), number, dtype=np.int64)])
     nothing = np.empty(0, dtype=np.int64)
-    sets = {name: [nothing, np.flatnonzero(marker == number)] for name, number in mesh.markers.items()}
+    sets = {name: [nothing, np.flatnonzero(marker == number)] for name, number in numbers.items()}
     physical = [np.full(count, inside, dtype=np.int32), marker.astype(np.int32)]
     return meshio.Mesh(
         mesh.nodes,
@@ -45,12 +60,12 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
             "gmsh:geometrical": physical,
         },
         cell_sets=sets,
-        field_data={**{name: np.array([n, 1]) for name, n in mesh.markers.items()}, "domain": np.array([inside, 2])},
+        field_data={**{name: np.array([n, 1]) for name, n in numbers.items()}, "domain": np.array([inside, 2])},
     )
 
 
 def to_skfem(mesh: Mesh) -> skfem.MeshTri:
-    """Returns a `MeshTri` with the pieces of the boundary as named facets."""
+    """Returns a `MeshTri` with the pieces of the boundary and the lines as named facets."""
     import skfem
 
     found = skfem.MeshTri(np.ascontiguousarray(mesh.nodes.T), np.ascontiguousarray(mesh.triangles.T.astype(np.int64)))
@@ -58,7 +73,8 @@ def to_skfem(mesh: Mesh) -> skfem.MeshTri:
     keys = found.facets[0].astype(np.int64) * count + found.facets[1]
     order = np.argsort(keys)
     names = {}
-    for name, edges in mesh.boundary.items():
+    all_edges: dict[str, npt.NDArray[Any]] = {**mesh.boundary, **_lines(mesh)}
+    for name, edges in all_edges.items():
         ends = np.sort(edges.astype(np.int64), axis=1)
         names[name] = order[np.searchsorted(keys, ends[:, 0] * count + ends[:, 1], sorter=order)]
     return found.with_boundaries(names)

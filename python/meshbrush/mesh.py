@@ -137,6 +137,13 @@ class Mesh:
         return self._core.boundary
 
     @property
+    def lines(self) -> dict[str, list[npt.NDArray[np.uint32]]]:
+        """The nodes along each line of the document (`[[line]]` of a recipe), each with shape (k,): an array for each part
+        of the line that is on edges without a gap. The array of a whole closed line ends with its first node. Lines of
+        which no part is on edges are not in it; lines with one name share a list."""
+        return self._core.lines
+
+    @property
     def markers(self) -> dict[str, int]:
         """The number of each piece of the boundary in files."""
         return self._core.markers
@@ -311,13 +318,13 @@ class Mesh:
         return plot(self, **options)
 
     def to_meshio(self) -> meshio.Mesh:
-        """Returns a mesh of meshio, with the pieces of the boundary as sets and as physical groups."""
+        """Returns a mesh of meshio, with the pieces of the boundary and the lines as sets and as physical groups."""
         from .converters import to_meshio
 
         return to_meshio(self)
 
     def to_skfem(self) -> skfem.MeshTri:
-        """Returns a mesh of scikit-fem, whose boundaries have the names of the pieces."""
+        """Returns a mesh of scikit-fem, whose boundaries have the names of the pieces and of the lines."""
         from .converters import to_skfem
 
         return to_skfem(self)

@@ -20,7 +20,7 @@ use numpy::ndarray::{ArrayView1, ArrayView2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray1, ToPyArray};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyList};
 
 use crate::arrays::{array_of, lent};
 use crate::document::NO_PLANE;
@@ -217,6 +217,31 @@ impl Mesh {
             let edges = rows(&edges, 2).to_pyarray(slf.py());
             edges.call_method1("setflags", (false,))?;
             all.set_item(name, edges)?;
+        }
+        Ok(all)
+    }
+
+    /// For each line with edges in the mesh, the nodes of each part of it that is on edges without a gap,
+    /// along the line. Lines with one name have their parts in one list.
+    #[getter]
+    fn lines<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
+        let found = computed(slf, |mesh| {
+            let lines = &mesh.details().map_err(str::to_owned)?.lines;
+            Ok::<_, String>(lines.iter().map(|line| (line.name.clone(), line.runs())).collect::<Vec<_>>())
+        })?;
+        let all = PyDict::new(slf.py());
+        for (name, runs) in found.map_err(mesh_error)? {
+            let parts = match all.get_item(&name)? {
+                Some(parts) => parts.cast_into::<PyList>()?,
+                None => PyList::empty(slf.py()),
+            };
+            for run in runs {
+                let nodes: Vec<u32> = run.into_iter().map(|node| node as u32).collect();
+                let nodes = nodes.into_pyarray(slf.py());
+                nodes.call_method1("setflags", (false,))?;
+                parts.append(nodes)?;
+            }
+            all.set_item(name, parts)?;
         }
         Ok(all)
     }

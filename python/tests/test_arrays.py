@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -87,3 +88,58 @@ def test_levels_and_targets(mesh: mb.Mesh) -> None:
         assert np.allclose(longest, spacing * np.sqrt(2) * 2.0 ** (-mesh.levels.astype(int) / 2), rtol=0.06)
         corner_targets = target[mesh.triangles].min(axis=1)
         assert np.all(longest <= corner_targets * (1 + 1e-9))
+
+
+WALLS = """
+[mesh]
+spacing = 0.1
+
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "0.04"
+
+[[line]]
+name = "wall"
+points = [[0.2, 0.3], [0.55, 0.4], [0.7, 0.75]]
+
+[[line]]
+name = "ring"
+points = [[0.2, 0.7], [0.4, 0.7], [0.3, 0.85]]
+closed = true
+
+[[line]]
+name = "wall"
+points = [[0.8, -0.2], [0.8, 0.2]]
+
+[[line]]
+name = "elsewhere"
+points = [[3, 3], [4, 4]]
+"""
+
+
+def test_lines_are_runs_of_nodes_along_edges(tmp_path: Path) -> None:
+    (tmp_path / "walls.toml").write_text(WALLS)
+    mesh = mb.open(tmp_path / "walls.toml").mesh()
+    lines = mesh.lines
+    assert list(lines) == ["wall", "ring"] and [len(runs) for runs in lines.values()] == [2, 1]
+    sides = {tuple(sorted((c[i], c[i - 1]))) for c in mesh.triangles.tolist() for i in range(3)}
+    for runs in lines.values():
+        for run in runs:
+            assert run.dtype == np.uint32 and len(run) > 4 and not run.flags.writeable
+            assert all(tuple(sorted(ends)) in sides for ends in zip(run.tolist(), run[1:].tolist()))
+    first, second = (mesh.nodes[run] for run in lines["wall"])
+    assert first[[0, -1]] == pytest.approx(np.array([[0.2, 0.3], [0.7, 0.75]]), abs=1e-8)
+    assert second[:, 0] == pytest.approx(0.8, abs=1e-8) and second[[0, -1], 1] == pytest.approx([0, 0.2], abs=1e-8)
+    (ring,) = lines["ring"]
+    assert ring[0] == ring[-1] and len(set(ring.tolist())) == len(ring) - 1
+    x, y = mesh.nodes[ring].T
+    assert 0.5 * abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) == pytest.approx(0.5 * 0.2 * 0.15, abs=1e-8)
+    # The converters have them beside the boundary.
+    edges = {name: sum(len(run) - 1 for run in runs) for name, runs in lines.items()}
+    pytest.importorskip("skfem")
+    found = mesh.to_meshio()
+    assert {name: len(found.cell_sets[name][1]) for name in edges} == edges
+    assert np.all(mesh.nodes[found.cells_dict["line"][found.cell_sets["ring"][1]]][:, :, 1] >= 0.7 - 1e-8)
+    facets = mesh.to_skfem().boundaries
+    assert {name: len(facets[name]) for name in edges} == edges and len(facets) == len(mesh.boundary) + 2

@@ -11,7 +11,7 @@ use meshbrush_kit::kit::Keymap;
 use meshbrush_kit::kit::background::{Aim, Background, Outcome, cancelled, exported, listed};
 use meshbrush_kit::kit::command::{Command, FileCommand, Opened, ShellCommand};
 use meshbrush_kit::kit::export_set::ExportSet;
-use meshbrush_kit::kit::mesh_export::{MeshExport, OverlayMaker};
+use meshbrush_kit::kit::mesh_export::{MeshExport, OverlayMaker, WrittenExport};
 use meshbrush_kit::kit::session::Session;
 
 use meshbrush_core::document::{
@@ -188,16 +188,18 @@ pub fn export(
     let format = ExportFormat::from_path(path).map_err(|error| format!("{error}."))?;
     let blocked =
         |file: &PathBuf| Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?));
-    if let Some(problem) = format.files(path).iter().find_map(blocked) {
+    let has_lines = !session.document().settings().lines.is_empty();
+    if let Some(problem) = format.files_of(path, has_lines).iter().find_map(blocked) {
         return Err(problem);
     }
     let mesh = MeshExport::of(session, view, format).with_overlay(overlay);
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| match mesh.write(&file, meter) {
-        Ok((files, cells)) => {
+        Ok(WrittenExport { files, cells, notes }) => {
             let [squares, triangles] = cells.map(|count| format::count(count as u64));
             let squares = if cells[0] > 0 { format!("{squares} squares and ") } else { String::new() };
-            Outcome::Exported(format!("{squares}{triangles} triangles written to {}.", listed(&files)))
+            let notes: String = notes.iter().map(|note| format!(" {note}")).collect();
+            Outcome::Exported(format!("{squares}{triangles} triangles written to {}.{notes}", listed(&files)))
         }
         Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
         Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),

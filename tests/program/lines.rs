@@ -165,3 +165,126 @@ fn what_the_mesh_cannot_resolve_is_listed_with_its_place() {
     let ran = folder.run("mesh --lines points.geojson");
     assert!(ran.status == 1 && ran.err.contains("has no lines and no polygons"), "{}", ran.err);
 }
+
+/// A name or value, and points.
+type Polyline = (String, Vec<[f64; 2]>);
+
+/// The blocks of a file of polylines of Delft3D-FM: the names, and the points.
+fn polylines(text: &str) -> Vec<Polyline> {
+    let mut lines = text.lines();
+    let mut blocks = Vec::new();
+    while let Some(name) = lines.next() {
+        assert!(!name.starts_with(['*', '#']) && !name.trim().is_empty(), "{name:?}");
+        blocks.push((name.to_owned(), points(&mut lines, "2")));
+    }
+    blocks
+}
+
+/// The lines of a line set of BlueKenue: their values, and the points; and the comments of the header.
+fn line_set(text: &str) -> (Vec<Polyline>, Vec<&str>) {
+    let (header, body) = text.split_once(":EndHeader\n").unwrap();
+    assert_eq!(header.lines().next().unwrap().split_whitespace().next(), Some(":FileType"));
+    let (keywords, comments): (Vec<&str>, Vec<&str>) = header.lines().partition(|line| line.starts_with(':'));
+    assert!(
+        comments.iter().all(|line| line.starts_with('#')) && keywords[0].contains(" i2s ASCII EnSim 1.0")
+    );
+    let mut lines = body.lines().peekable();
+    let mut all = Vec::new();
+    while let Some(head) = lines.peek() {
+        let value = head.split_whitespace().nth(1).unwrap().to_owned();
+        all.push((value.clone(), points(&mut lines, &value)));
+    }
+    (all, comments)
+}
+
+/// Reads a line with a number of points and another word, and then the points.
+fn points<'a>(lines: &mut impl Iterator<Item = &'a str>, second: &str) -> Vec<[f64; 2]> {
+    let head: Vec<&str> = lines.next().unwrap().split_whitespace().collect();
+    assert_eq!((head.len(), head[1]), (2, second));
+    let point = |line: &str| {
+        let at: Vec<f64> = line.split_whitespace().map(|word| word.parse().unwrap()).collect();
+        <[f64; 2]>::try_from(at).unwrap()
+    };
+    (0..head[0].parse().unwrap()).map(|_| point(lines.next().unwrap())).collect()
+}
+
+/// A mesh with a line that leaves the domain and comes back, and one without an end.
+const TWO_LINES: &str = r#"[mesh]
+spacing = 0.1
+
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "0.04"
+
+[[line]]
+name = "* mole\n1"
+points = [[0.2, 0.3], [0.55, 0.4], [0.7, -0.3], [0.9, 0.4]]
+
+[[line]]
+name = "ring"
+points = [[0.2, 0.7], [0.4, 0.7], [0.3, 0.85]]
+closed = true
+"#;
+
+#[test]
+fn lines_are_beside_the_meshes_of_telemac_and_delft3d() {
+    let folder = Folder::new("lines-companions");
+    folder.file("a.toml", TWO_LINES);
+    let ran = folder.run("mesh a.toml -o a.2dm -o a.slf -o a.nc -o plain.nc");
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    for file in ["a.i2s", "a_thd.pli", "plain_thd.pli"] {
+        assert!(ran.err.contains(file), "{file} is not said: {}", ran.err);
+    }
+    let (nodes, strings) = nodestrings(&folder.read("a.2dm"));
+    let along = |name: &str| strings[name].iter().map(|&node| nodes[node]).collect::<Vec<_>>();
+    let text = folder.read("a.i2s");
+    let (set, comments) = line_set(&text);
+    let [first, second, ring] = &set[..] else { panic!("{set:?}") };
+    assert_eq!([&*first.0, &*second.0, &*ring.0], ["1", "1", "2"]);
+    assert!(comments.contains(&"# line 1: * mole 1") && comments.contains(&"# line 2: ring"), "{comments:?}");
+    assert_eq!(ring.1, along("ring"), "the nodes to the last digit");
+    assert!(ring.1.len() > 10 && ring.1.first() == ring.1.last());
+    assert_eq!(second.1, along("* mole 1"), "the last string of that name");
+    assert!(first.1.len() > 10 && second.1.len() > 4);
+    let blocks = polylines(&folder.read("a_thd.pli"));
+    let names: Vec<&str> = blocks.iter().map(|(name, _)| &**name).collect();
+    assert_eq!(names, ["mole 1 (1)", "mole 1 (2)", "ring"]);
+    assert!(blocks.iter().map(|(_, points)| points).eq(set.iter().map(|(_, points)| points)));
+    // A mesh without lines has no such file.
+    folder.file("none.toml", TWO_LINES.split("[[line]]").next().unwrap());
+    assert_eq!(folder.run("mesh none.toml -o b.slf -o b.nc").status, 0);
+    assert!(!folder.has("b.i2s") && !folder.has("b_thd.pli"));
+}
+
+#[test]
+fn no_quadrilateral_has_an_edge_along_a_line_inside_it() {
+    let folder = Folder::new("lines-squares");
+    // Along diagonals of the squares of the mesh, and along their sides.
+    let line = |name: &str, points: &str| format!("[[line]]\nname = \"{name}\"\npoints = {points}\n\n");
+    let across = line("across", "[[0.2, 0.2], [0.6, 0.6], [0.9, 0.3]]");
+    let text = format!("[mesh]\nspacing = 0.1\n\n{across}{}", line("straight", "[[0.1, 0.8], [0.7, 0.8]]"));
+    folder.file("a.toml", text);
+    assert_eq!(folder.run("mesh a.toml --cells squares -o a.2dm").status, 0);
+    let text = folder.read("a.2dm");
+    let (nodes, strings) = nodestrings(&text);
+    let cells = text.lines().filter(|line| line.starts_with('E'));
+    let cells: Vec<Vec<usize>> = cells
+        .map(|line| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            words[2..words.len() - 1].iter().map(|word| word.parse::<usize>().unwrap() - 1).collect()
+        })
+        .collect();
+    let squares = cells.iter().filter(|cell| cell.len() == 4).count();
+    assert!(squares > 50, "{squares} squares");
+    for name in ["across", "straight"] {
+        for pair in strings[name].windows(2) {
+            let is_side = |cell: &&Vec<usize>| {
+                let corners = (0..cell.len()).map(|k| [cell[k], cell[(k + 1) % cell.len()]]);
+                corners.into_iter().any(|ends| ends.iter().all(|end| pair.contains(end)))
+            };
+            let beside = cells.iter().filter(is_side).count();
+            assert_eq!(beside, 2, "{name}: {:?}", pair.iter().map(|&node| nodes[node]).collect::<Vec<_>>());
+        }
+    }
+}

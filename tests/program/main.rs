@@ -30,3 +30,4 @@ mod solver_seas;
 mod straits;
 mod strips;
 mod surface;
+mod weirs;

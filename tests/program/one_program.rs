@@ -7,7 +7,8 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape, Line, PieceChoice,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Crest, Domain, DomainShape, Line,
+    LineKind, PieceChoice, Weir,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
@@ -120,6 +121,21 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
         _ => list.polygons = vec![vec![circle(point(random), 0.4, random.usize(3..40))]],
     }
     Shapes::new(list, true).unwrap()
+}
+
+/// Returns edges, or a weir with one height or a profile.
+fn line_kind(random: &mut fastrand::Rng) -> LineKind {
+    let crest = match random.u8(..4) {
+        0 => Crest::Height(between(random, -1.0, 9.0)),
+        1 => {
+            let mut shares: Vec<f64> = (0..random.usize(1..5)).map(|_| random.f64()).collect();
+            shares.sort_by(f64::total_cmp);
+            Crest::Profile(shares.into_iter().map(|share| [share, between(random, -1.0, 9.0)]).collect())
+        }
+        _ => return LineKind::Edges,
+    };
+    let supercritical = if random.bool() { 1.0 } else { between(random, 0.1, 2.0) };
+    LineKind::Weir(Weir { supercritical, ..Weir::with_crest(crest) })
 }
 
 /// Returns a layer of any kind. Straits and the distance to the outline need a domain that has one.
@@ -300,6 +316,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         name: format!("line {n}"),
         points: (0..random.usize(2..5)).map(|_| point(random)).collect(),
         closed: random.bool(),
+        kind: line_kind(random),
     });
     let settings = Settings {
         lines: Arc::new(lines.collect()),

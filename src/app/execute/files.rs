@@ -26,6 +26,23 @@ use meshbrush_kit::kit::{FileRequest, look_at, raster_frame};
 use meshbrush_render::render::export::ExportFormat;
 
 impl App {
+    /// Returns whether an export has files of lines beside those of the mesh.
+    fn has_lines(&self) -> bool {
+        !self.session.document().settings().lines.is_empty()
+    }
+
+    /// Exports to a path that was typed, after a question where files would be replaced.
+    fn export_as(&mut self, path: PathBuf) {
+        let has_lines = self.has_lines();
+        self.commands.extend(self.project.export_as(path, has_lines));
+    }
+
+    /// Exports to all files again, after a question where foreign ones would be replaced.
+    fn export_again(&mut self) {
+        let has_lines = self.has_lines();
+        self.commands.extend(self.project.export_again(has_lines));
+    }
+
     /// Opens an example, and shows what it is about.
     fn open_example(&mut self, example: Example) {
         let missing = files::missing_for(example);
@@ -102,10 +119,10 @@ impl App {
                 let started = files::export_test(&mut self.session, &mut self.background, &path);
                 self.fail_on(started);
             }
-            FileCommand::ExportAs(path) => self.commands.extend(self.project.export_as(path)),
+            FileCommand::ExportAs(path) => self.export_as(path),
             FileCommand::Export(path) => self.export(&path),
             FileCommand::SetExports(outputs) => self.project.exports = ExportSet::of_recipe(outputs),
-            FileCommand::ExportAgain => self.commands.extend(self.project.export_again()),
+            FileCommand::ExportAgain => self.export_again(),
             FileCommand::ExportAll => self.export_all(),
             FileCommand::CancelWork(id) => self.cancel_work(id),
             FileCommand::Restore => self.restore(),

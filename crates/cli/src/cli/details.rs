@@ -128,7 +128,7 @@ impl MeshDetails {
         let surface = finished.surface_fit(extract);
         let filled = surface.as_ref().filter(|_| uses.node_data);
         let heights = filled.map(|fit| fit.filled_heights(extract.view()));
-        let lines = LineEdges::all(finished.derived.line_fits(), extract);
+        let lines = LineEdges::all(finished.derived.line_fits(), &finished.spec().lines, extract);
         Ok(Self {
             boundary,
             lines,

@@ -135,6 +135,12 @@ impl Input {
         }
     }
 
+    /// Returns whether the recipe or an option has lines along which the mesh shall have edges. Those of a
+    /// project are not known before it is read.
+    pub fn has_lines(&self) -> bool {
+        !self.settings.line.is_empty()
+    }
+
     /// Returns the files to read.
     pub fn files(&self) -> Vec<PathBuf> {
         let recipe = self.recipe.as_ref().map(|recipe| recipe.file().to_owned());

@@ -107,7 +107,8 @@ fn all_files(
     let inputs: Vec<_> =
         input.files().into_iter().chain(files.iter().flat_map(RequestedFiles::read_files)).collect();
     let first_files = sequence::first_files(typed, files.clone())?;
-    first_files.iter().try_for_each(|files| files.check_places(&inputs))?;
+    let has_lines = input.has_lines();
+    first_files.iter().try_for_each(|files| files.check_places(&inputs, has_lines))?;
     typed.curve.check(&inputs)?;
     Ok(files)
 }

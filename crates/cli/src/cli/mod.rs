@@ -18,6 +18,7 @@ pub mod failure;
 mod grid_source;
 pub mod input;
 mod lengths;
+mod line_notes;
 mod lines;
 mod locate;
 #[cfg(feature = "man")]

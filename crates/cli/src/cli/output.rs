@@ -16,7 +16,7 @@ use meshbrush_io::io::CellShape;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::solver_rules::Solver;
 use meshbrush_io::io::{
-    DEPTH, KeyFault, MeshData, Meter, PartitionFigures, QuantityPlaces, ThirdCoordinate, obstacle,
+    DEPTH, KeyFault, MeshData, MeshFormat, Meter, PartitionFigures, QuantityPlaces, ThirdCoordinate, obstacle,
 };
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::Number;
@@ -158,21 +158,27 @@ impl Output {
         is_within || self.own_quantity.as_deref() == Some(name)
     }
 
-    /// Checks before the work whether its files can be written there, with those of attributes where there
-    /// are any.
+    /// Checks before the work whether its files can be written there, with those of attributes and those of
+    /// lines where there are any, in turn.
     ///
     /// # Errors
     /// Fails with the errors of [`check_place`], for each of its files.
-    pub fn check_places(&self, inputs: &[PathBuf], has_attributes: bool) -> Result<(), Failure> {
+    pub fn check_places(&self, inputs: &[PathBuf], there_are: [bool; 2]) -> Result<(), Failure> {
+        let [has_attributes, has_lines] = there_are;
         let attributes = |path: &PathBuf| self.format.mesh()?.attributes_file(path);
         let attributes = self.path.as_ref().filter(|_| has_attributes).and_then(attributes);
-        let files = self.path.iter().flat_map(|path| self.format.files(path)).chain(attributes);
+        let files = self.path.iter().flat_map(|path| self.format.files_of(path, has_lines)).chain(attributes);
         files.into_iter().try_for_each(|file| check_place(&file, inputs))
     }
 
     /// Whether the name of the format was needed, beside the name of the file.
     pub fn is_named(&self) -> bool {
         self.is_named
+    }
+
+    /// Returns the format of a mesh; `None` for a picture.
+    pub fn mesh_format(&self) -> Option<MeshFormat> {
+        self.format.mesh()
     }
 
     /// Returns whether coordinates in its files have to be lengths.

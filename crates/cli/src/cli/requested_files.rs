@@ -8,6 +8,7 @@ use super::depths::{ChangedDepths, DepthChanges};
 use super::details::MeshDetails;
 use super::exported_mesh::ExportedMesh;
 use super::failure::Failure;
+use super::line_notes::line_notes;
 use super::output::{Output, RequestedLook};
 use super::output_coordinates::OutputCoordinates;
 use super::output_keys::{check_use, depth_changes_of, quantities_of};
@@ -185,16 +186,16 @@ impl RequestedFiles {
         self.quantities.iter().find(|quantity| quantity.uses_depth())
     }
 
-    /// Checks before the work whether the files can be written, and have the quantities that their names ask
-    /// for.
+    /// Checks before the work whether the files can be written, with those of lines where there are some, and
+    /// have the quantities that their names ask for.
     ///
     /// # Errors
     /// Fails with a sentence about the first file that cannot be written.
-    pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
+    pub fn check_places(&self, inputs: &[PathBuf], has_lines: bool) -> Result<(), Failure> {
         let has_attributes = self.quantities.iter().any(|of| !of.is_depth() && of.name() != SURFACE);
         self.outputs.iter().try_for_each(|output| {
             output.in_place_of_depth(self.quantities.iter().map(NamedQuantity::name))?;
-            output.check_places(inputs, has_attributes)
+            output.check_places(inputs, [has_attributes, has_lines])
         })
     }
 
@@ -275,6 +276,7 @@ pub fn write_files(
             provenance,
             ..exported.data(&quantities, files.is_flat)
         };
+        quantity_notes.extend(line_notes(&files.outputs, &exported, placed, &data));
         for output in &files.outputs {
             let meter = interruption.meter();
             let write = || exported.write(output, placed, &data, &look, &meter);
@@ -383,6 +385,7 @@ impl RequestedFiles {
         let data =
             MeshData { cells: self.cells, joined, provenance, ..exported.data(&quantities, self.is_flat) };
         notes.extend(self.lost_quantities(&quantities));
+        notes.extend(line_notes(&self.outputs, exported, placed, &data));
         notes.extend(self.idle_changes(changed));
         let write = |output: &Output| exported.write(output, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())

@@ -18,11 +18,14 @@ const LEAST_SINE: f64 = 0.05;
 /// tried.
 const ROUNDS: usize = 6;
 
-/// Returns the mesh as cells without short links, as far as that is possible.
-pub(super) fn joined(mesh: CellNodes<'_>) -> MeshCells {
+/// Returns the mesh as cells without short links, as far as that is possible with the `kept` edges in it.
+pub(super) fn joined(mesh: CellNodes<'_>, kept: impl Iterator<Item = [usize; 2]>) -> MeshCells {
     let triangles = MeshCells::triangles(mesh).cells;
     let edges = edges_of(&triangles);
     let mut pairing = Pairing::new(mesh, &edges);
+    for edge in kept.filter_map(|ends| edge_between(&edges, ends)) {
+        pairing.is_kept[edge] = true;
+    }
     pairing.join_short(&links_of(mesh, &triangles, &edges));
     for _ in 0..ROUNDS {
         if !pairing.join_at_bad_links() {
@@ -41,6 +44,8 @@ struct Pairing<'a> {
     edges_at: Vec<Vec<usize>>,
     /// The edge across which each triangle is joined.
     joined: Vec<Option<usize>>,
+    /// Which edges stay in any case.
+    is_kept: Vec<bool>,
 }
 
 impl<'a> Pairing<'a> {
@@ -49,7 +54,8 @@ impl<'a> Pairing<'a> {
         for (number, edge) in edges.iter().enumerate() {
             edge.cells.iter().for_each(|&triangle| edges_at[triangle].push(number));
         }
-        Self { mesh, edges, edges_at, joined: vec![None; mesh.triangles.len()] }
+        let (joined, is_kept) = (vec![None; mesh.triangles.len()], vec![false; edges.len()]);
+        Self { mesh, edges, edges_at, joined, is_kept }
     }
 
     /// Joins pairs with a short link, the shortest first.
@@ -153,10 +159,12 @@ impl<'a> Pairing<'a> {
         self.edges[edge].cells.iter().for_each(|&triangle| self.joined[triangle] = None);
     }
 
-    /// Returns whether both triangles of an edge are free, and make a convex quadrilateral.
+    /// Returns whether an edge need not stay, and both its triangles are free and make a convex
+    /// quadrilateral.
     fn can_join(&self, edge: usize) -> bool {
         let [first, second] = self.edges[edge].cells;
-        self.joined[first].is_none() && self.joined[second].is_none() && self.is_convex(edge)
+        let are_free = self.joined[first].is_none() && self.joined[second].is_none();
+        !self.is_kept[edge] && are_free && self.is_convex(edge)
     }
 
     fn is_convex(&self, edge: usize) -> bool {

@@ -89,7 +89,13 @@ impl MeshCells {
     /// then, at each link that is still short or far from a right angle, one more pair where that leaves
     /// less. The same mesh has the same cells on every machine.
     pub fn joined(mesh: CellNodes<'_>) -> Self {
-        join::joined(mesh)
+        join::joined(mesh, std::iter::empty())
+    }
+
+    /// Joins pairs as [`Self::joined`] does, but never across an edge between the two nodes of one of `kept`:
+    /// it stays an edge of the cells.
+    pub fn joined_beside(mesh: CellNodes<'_>, kept: impl Iterator<Item = [usize; 2]>) -> Self {
+        join::joined(mesh, kept)
     }
 
     /// Returns the cells, in the order of their first triangles.

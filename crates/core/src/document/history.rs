@@ -4,6 +4,7 @@ use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use super::{PathCost, Settings};
+use crate::domain::Line;
 use crate::geometry::NumberMap;
 use crate::layers::{Layer, LayerId};
 use crate::paint::Patch;
@@ -52,8 +53,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
     let outline = settings.domain.region().map(|region| (Arc::as_ptr(region).addr(), region.bytes()));
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let pins = (Arc::as_ptr(&settings.pins).addr(), size_of_val(&settings.pins[..]));
-    let corners = settings.lines.iter().map(|line| size_of_val(line) + size_of_val(&line.points[..]));
-    let lines = (Arc::as_ptr(&settings.lines).addr(), corners.sum());
+    let lines = (Arc::as_ptr(&settings.lines).addr(), settings.lines.iter().map(Line::bytes).sum());
     let paths = (Arc::as_ptr(&settings.paths).addr(), settings.paths.bytes());
     let layers = settings.layers.iter().flat_map(Layer::shared_data);
     let background = settings

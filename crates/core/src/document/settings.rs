@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::{Background, PathPlan, layers};
 use crate::build::MeshSpec;
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, Line, Region};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, Line, LineWeirError, Region};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{
@@ -89,6 +89,9 @@ pub enum SettingsError {
     /// Too many layers.
     #[error("The document has {} layers, and the limit is {}.", Grouped(*_0), Grouped(layers::MOST_LAYERS))]
     Layers(usize),
+    /// A weir is of no use.
+    #[error(transparent)]
+    Weir(#[from] LineWeirError),
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
@@ -210,6 +213,7 @@ impl Settings {
         if let Some(&pin) = self.pins.iter().find(|pin| !pin.is_finite()) {
             return Err(SettingsError::Pin(pin));
         }
+        Line::check_all(&self.lines)?;
         self.check_layers()?;
         if let Some(slope) = self.gradation
             && !(slope > 0.0 && slope.is_finite())
@@ -397,8 +401,7 @@ const MOST_MEMORY: Option<usize> = if cfg!(target_family = "wasm") { Some(1_500_
 impl Settings {
     /// Most triangles unless the user says otherwise: 760 MB.
     pub const MAX_TRIANGLES: usize = 20_000_000;
-    /// Most memory for meshes unless the user says otherwise, in bytes: enough for a little more than
-    /// [`Self::MAX_TRIANGLES`].
+    /// Most memory for meshes unless the user says otherwise, in bytes: enough for some more triangles.
     pub const MAX_MEMORY: usize = 2_600_000_000;
 
     /// Returns the default settings for a domain: lengths in proportion to its longer side.

@@ -56,8 +56,10 @@ pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::{FitComparison, FitQuality};
 pub use formula_shape::FormulaShape;
 pub use holes::HoleFigures;
-pub use lines::{Line, LinesOnLattice};
-pub(crate) use lines::{LineOnLattice, LinePart, cross, crossing, is_near, lies_between, place};
+pub use lines::{
+    Crest, CrestOnGrid, Line, LineKind, LineWeirError, LinesOnLattice, NoCrest, Weir, WeirError,
+};
+pub(crate) use lines::{LineMeasure, LineOnLattice, LinePart, cross, crossing, is_near, lies_between, place};
 pub(crate) use missed_corners::COS_30;
 pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::RegionOutline;

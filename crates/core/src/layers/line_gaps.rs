@@ -274,7 +274,12 @@ mod tests {
                 at += 0.3 * dvec2(random.f64() - 0.5, random.f64() - 0.5);
                 at
             });
-            Line { name: n.to_string(), points: points.collect(), closed: random.bool() }
+            Line {
+                name: n.to_string(),
+                points: points.collect(),
+                closed: random.bool(),
+                kind: Default::default(),
+            }
         };
         Arc::new((0..4).map(&mut line).collect())
     }
@@ -326,6 +331,7 @@ mod tests {
             name: String::new(),
             points: points.iter().map(|&p| p.into()).collect(),
             closed: false,
+            kind: Default::default(),
         };
         let of = |lines: Vec<Line>| LineGaps::of(&Arc::new(lines), &domain());
         let one = of(vec![line(&[[0.5, 0.5], [0.75, 0.5]])]);

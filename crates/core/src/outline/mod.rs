@@ -68,5 +68,5 @@ pub use derived::DerivedMesh;
 pub use deriving::MeshDerivation;
 pub use follower::OutlineFollower;
 pub use lengths::{EdgeTargets, SharedTargets};
-pub use lines::{LineEdge, LineEdges, LineFit, LineProblem, UnresolvedPlace};
+pub use lines::{LineEdge, LineEdges, LineFit, LineProblem, UnresolvedPlace, WeirEdges};
 pub use stages::{DerivationAction, DerivationStage, derivation_stages};

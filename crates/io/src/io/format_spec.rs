@@ -32,6 +32,8 @@ pub struct FormatSpec {
     pub has_targets: bool,
     /// Whether a coastal solver finds its open boundary in the files.
     pub has_open_boundary: bool,
+    /// Whether weirs are in its files, as cracks with crests.
+    pub has_weirs: bool,
     /// Whether coordinates have to be lengths: degrees are refused.
     pub needs_lengths: bool,
     /// Whether its files can have quadrilaterals.
@@ -45,6 +47,9 @@ pub struct FormatSpec {
     /// The file beside the mesh with the quantities that have no place in it, if there are any: its extension
     /// and its writer.
     pub attributes: Option<(&'static str, WriteMesh)>,
+    /// The files with the lines of the document, which are written where the mesh has edges along some: what
+    /// follows the name of the mesh without its extension, as in `.i2s` and `_thd.pli`, and writers.
+    pub beside_lines: &'static [(&'static str, WriteMesh)],
     /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
@@ -65,12 +70,14 @@ impl FormatSpec {
             size: TypicalSize { bytes: 50.0, bytes_per_digit: 5.0 },
             has_targets: false,
             has_open_boundary: false,
+            has_weirs: false,
             needs_lengths: false,
             squares: SquareCells::Impossible,
             parts_file: None,
             third: ThirdCoordinate::None,
             quantities: QuantityPlaces::Depth,
             attributes: None,
+            beside_lines: &[],
             beside: &[],
             write,
             write_binary: None,

@@ -6,10 +6,13 @@
 //! name, its unit (`1`: none), the number of its values at a node, and the default value: the most common
 //! one, or the least of equally common ones. Then each attribute has its name again, the number of nodes with
 //! another value, and these nodes with their values. ADCIRC takes the attributes that its `fort.15` names.
+//! Nodes are those of its mesh, with those that weirs add.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use super::weirs::WeirCracks;
 use super::{MeshData, NodeValues, Number};
 use meshbrush_mesh::mesh::Extract;
 
@@ -21,9 +24,11 @@ const NAMES: [(&str, &str); 1] = [("manning", "mannings_n_at_sea_floor")];
 /// # Errors
 /// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let attributes: Vec<Attribute> = data.attributes().map(Attribute::new).collect();
+    let cracks = WeirCracks::new(mesh, data);
+    let attributes: Vec<Attribute> =
+        data.attributes().map(|values| Attribute::new(values, &cracks)).collect();
     writeln!(out, "{}", data.provenance.line())?;
-    writeln!(out, "{}\n{}", mesh.nodes().len(), attributes.len())?;
+    writeln!(out, "{}\n{}", cracks.node_count(), attributes.len())?;
     for Attribute { name, default, .. } in &attributes {
         writeln!(out, "{name}\n1\n1\n{}", Number(*default))?;
     }
@@ -41,13 +46,14 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 struct Attribute<'a> {
     name: &'a str,
     default: f64,
-    values: &'a [f64],
+    values: Cow<'a, [f64]>,
 }
 
 impl<'a> Attribute<'a> {
-    fn new(NodeValues { name, values }: &'a NodeValues) -> Self {
+    fn new(NodeValues { name, values }: &'a NodeValues, cracks: &WeirCracks<'_>) -> Self {
         let known = NAMES.iter().find(|(own, _)| own == name).map(|(_, known)| *known);
-        Self { name: known.unwrap_or(name), default: most_common(values), values }
+        let values = cracks.values(values);
+        Self { name: known.unwrap_or(name), default: most_common(&values), values }
     }
 }
 

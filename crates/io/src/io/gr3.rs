@@ -10,6 +10,7 @@
 use std::io::{self, Write};
 
 use super::fort14::{self, Dialect, number_of_land, write_dialect};
+use super::weirs::WeirCracks;
 use super::{FormatSpec, MeshData, SquareCells};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::Extract;
@@ -42,7 +43,7 @@ pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
 /// # Errors
 /// Fails as [`fort14::write`] does.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    write_dialect(out, mesh, data, &dialect("hgrid.gr3"))
+    write_dialect(out, mesh, data, &dialect("hgrid.gr3"), &WeirCracks::none(mesh))
 }
 
 /// Writes `hgrid.ll`.
@@ -51,7 +52,9 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Fails as [`fort14::write`] does, and when the unit of the mesh is a length.
 pub fn write_in_degrees(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     match data.provenance.unit() {
-        LengthUnit::Degree | LengthUnit::None => write_dialect(out, mesh, data, &dialect("hgrid.ll")),
+        LengthUnit::Degree | LengthUnit::None => {
+            write_dialect(out, mesh, data, &dialect("hgrid.ll"), &WeirCracks::none(mesh))
+        }
         unit @ (LengthUnit::Metre | LengthUnit::Kilometre) => Err(io::Error::other(format!(
             "hgrid.ll holds longitudes and latitudes in degrees, and the coordinates of this mesh are in {}; write \
              hgrid.gr3, or set the unit of the document to degrees",

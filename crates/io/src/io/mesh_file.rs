@@ -33,6 +33,11 @@ impl MeshFormat {
         self.spec.has_targets
     }
 
+    /// Returns whether weirs are in its files, as cracks with crests.
+    pub fn has_weirs(self) -> bool {
+        self.spec.has_weirs
+    }
+
     /// Returns whether its coordinates have to be lengths: degrees are refused.
     pub fn needs_lengths(self) -> bool {
         self.spec.needs_lengths
@@ -121,6 +126,18 @@ impl MeshFormat {
         self.spec.attributes.map(|(ending, _)| self.sibling(path, ending))
     }
 
+    /// Returns the files beside an export to `path` that are written where the mesh has edges along lines of
+    /// the document.
+    pub fn line_files(self, path: &Path) -> Vec<PathBuf> {
+        self.spec.beside_lines.iter().map(|(ending, _)| after_stem(path, ending)).collect()
+    }
+
+    /// Returns the files with the lines and their writers, where there are any.
+    fn lines(self, path: &Path, data: &MeshData) -> impl Iterator<Item = (PathBuf, WriteMesh)> + use<> {
+        let writers = if data.lines.is_empty() { &[] } else { self.spec.beside_lines };
+        self.line_files(path).into_iter().zip(writers.iter().map(|(_, write)| *write))
+    }
+
     /// Returns the file of the attributes and its writer, where there are any.
     fn attributes(self, path: &Path, data: &MeshData) -> Option<(PathBuf, WriteMesh)> {
         let (_, write) = self.spec.attributes.filter(|_| data.attributes().next().is_some())?;
@@ -147,9 +164,9 @@ impl MeshFormat {
         }
     }
 
-    /// Writes a mesh, and returns the paths of the files: [`Self::files`], and [`Self::attributes_file`]
-    /// where there are attributes. The meter knows the number of bytes in all only for `.vtu`, `.stl` and
-    /// `.nc`.
+    /// Writes a mesh, and returns the paths of the files: [`Self::files`], [`Self::attributes_file`] where
+    /// there are attributes, and [`Self::line_files`] where there are lines. The meter knows the number of
+    /// bytes in all only for `.vtu`, `.stl` and `.nc`.
     ///
     /// # Errors
     /// Fails with the errors of the file system, when the format cannot hold the mesh, and when the work was
@@ -164,8 +181,13 @@ impl MeshFormat {
     ) -> io::Result<Vec<PathBuf>> {
         let writers = std::iter::once(self.writer()).chain(self.spec.beside.iter().map(|(_, write)| *write));
         let attributes = self.attributes(path, data);
-        let files: Vec<(PathBuf, WriteMesh)> =
-            self.files(path).into_iter().zip(writers).chain(attributes).collect();
+        let files: Vec<(PathBuf, WriteMesh)> = self
+            .files(path)
+            .into_iter()
+            .zip(writers)
+            .chain(attributes)
+            .chain(self.lines(path, data))
+            .collect();
         let draft = |(file, write): &(PathBuf, WriteMesh)| {
             Draft::write(file, meter, |out| write(out, mesh, data, meter))
         };
@@ -219,8 +241,9 @@ impl MeshFormat {
     pub fn exact_bytes(self, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<u64> {
         let mut count = ByteCount(0);
         let writers = std::iter::once(self.writer()).chain(self.spec.beside.iter().map(|(_, write)| *write));
-        let attributes = self.attributes(Path::new("mesh"), data).map(|(_, write)| write);
-        for write in writers.chain(attributes) {
+        let path = Path::new("mesh");
+        let further = self.attributes(path, data).into_iter().chain(self.lines(path, data));
+        for write in writers.chain(further.map(|(_, write)| write)) {
             write(&mut meter.count(&mut count), mesh, data, meter)?;
         }
         Ok(count.0)
@@ -239,6 +262,13 @@ impl MeshFormat {
     ) -> Option<io::Result<()>> {
         self.spec.beside.is_empty().then(|| self.writer()(out, mesh, data, meter))
     }
+}
+
+/// Returns the path with this in place of the extension.
+fn after_stem(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(ending);
+    path.with_file_name(name)
 }
 
 /// Counts bytes, and keeps none.

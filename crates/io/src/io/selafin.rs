@@ -11,11 +11,13 @@
 //! slip `2 0 0`, and others `2 2 2` (a wall); the values are 0. The last two numbers are the node and its
 //! place. The name of the piece follows after a `#`, where TELEMAC does not read. TELEMAC takes a
 //! boundary edge for a wall if one of its nodes is; so nodes between open pieces and land are open.
+//!
+//! Lines of the document are in a file beside them, [`i2s`].
 
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, LAND};
-use super::{FormatSpec, MeshData, NodeValues, QuantityPlaces, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, NodeValues, QuantityPlaces, TypicalSize, i2s, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::Grouped;
@@ -27,6 +29,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     has_open_boundary: true,
     quantities: QuantityPlaces::All,
     beside: &[("cli", |out, mesh, data, meter| write_conditions(&mut meter.count(out), mesh, data))],
+    beside_lines: &[(".i2s", |out, mesh, data, meter| i2s::write(&mut meter.count(out), mesh, data))],
     ..FormatSpec::new("slf", &["slf"], |out, mesh, data, meter| write(&mut meter.count(out), mesh, data))
 };
 

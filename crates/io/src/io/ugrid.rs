@@ -7,8 +7,9 @@
 //! Further values at the nodes are `mesh2d_target_diameter` (h̄) and `mesh2d_quantity_…`; `mesh2d_level` is
 //! on faces. `mesh2d_boundary` has the marker of the piece of each boundary edge, 0 inside; the names of the
 //! pieces are its `flag_meanings`, with `_` for blanks and signs. Where types of pieces are set, `flag_types`
-//! has the type of each, likewise. UGRID has no strings of nodes. `idomain` on faces is the number of the
-//! processor, from 0, where parts are asked for.
+//! has the type of each, likewise. UGRID has no strings of nodes: lines of the document are in a file beside
+//! it, [`pli`], and no quadrilateral has an edge along a line inside it. `idomain` on faces is the number of
+//! the processor, from 0, where parts are asked for.
 //!
 //! A mesh in degrees has longitudes and latitudes in WGS 84; the coordinate system of others is not known.
 //! Global attributes describe the origin of the mesh.
@@ -19,7 +20,7 @@ use super::netcdf_writer::{AttributeValue, Attributes, Dataset, VariableType, Wr
 use super::partition::Partition;
 use super::triangle_pieces::TrianglePieces;
 use super::written_cells::WrittenCells;
-use super::{FormatSpec, MeshData, Meter, QuantityPlaces, SquareCells, TypicalSize};
+use super::{FormatSpec, MeshData, Meter, QuantityPlaces, SquareCells, TypicalSize, pli};
 use meshbrush_mesh::mesh::{Extract, MeshEdge, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -30,6 +31,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     has_targets: true,
     squares: SquareCells::Usual,
     quantities: QuantityPlaces::All,
+    beside_lines: &[("_thd.pli", |out, mesh, data, meter| pli::write(&mut meter.count(out), mesh, data))],
     ..FormatSpec::new("ugrid", &["nc"], |mut out, mesh, data, meter| {
         write_metered(&mut out, mesh, data, meter)
     })

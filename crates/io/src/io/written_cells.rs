@@ -139,11 +139,14 @@ impl<'a> WrittenCells<'a> {
     }
 }
 
-/// Returns the cells of a mesh with pairs of triangles joined. Its nodes are in the coordinates of a file.
+/// Returns the cells of a mesh with pairs of triangles joined, but for those with an edge along a line. Its
+/// nodes are in the coordinates of a file.
 pub fn joined_cells<'a>(mesh: &Extract, data: &MeshData<'a>) -> &'a MeshCells {
     data.joined.0.get_or_init(|| {
         let (nodes, triangles) = arrays(mesh);
-        MeshCells::joined(CellNodes { nodes: &nodes, triangles: &triangles, unit: data.provenance.unit() })
+        let unit = data.provenance.unit();
+        let along_lines = data.lines.iter().flat_map(|line| line.edges.iter().map(|edge| edge.ends));
+        MeshCells::joined_beside(CellNodes { nodes: &nodes, triangles: &triangles, unit }, along_lines)
     })
 }
 

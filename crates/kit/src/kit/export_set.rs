@@ -41,11 +41,13 @@ impl ExportSet {
         self.0.iter().map(|file| &*file.output.file)
     }
 
-    /// Returns the files that exist, were not written in this window, and would be replaced.
-    pub fn foreign_files(&self) -> Vec<PathBuf> {
+    /// Returns the files that exist, were not written in this window, and would be replaced by the export of
+    /// a document with lines, or of one without them.
+    pub fn foreign_files(&self, has_lines: bool) -> Vec<PathBuf> {
         let foreign = self.0.iter().filter(|file| !file.is_written).map(|file| &*file.output.file);
         let all = foreign.flat_map(|path| {
-            ExportFormat::from_path(path).map_or_else(|_| Vec::new(), |format| format.files(path))
+            let format = ExportFormat::from_path(path);
+            format.map_or_else(|_| Vec::new(), |format| format.files_of(path, has_lines))
         });
         all.filter(|file| io::exists(file)).collect()
     }

@@ -15,7 +15,8 @@ use meshbrush_core::outline::{DerivedMesh, EdgeTargets, LineEdges};
 use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::solver_rules::{BrokenRule, Severity, Solver, WrittenMesh, broken_rules};
 use meshbrush_io::io::{
-    CellShape, DEPTH, JoinedCells, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE, joined_cells,
+    CellShape, DEPTH, JoinedCells, MeshData, MeshSource, Meter, NodeValues, Provenance, SURFACE,
+    joined_cells, weir_notes,
 };
 use meshbrush_mesh::mesh::{Extract, Fingerprint, Mesh, MeshView};
 use meshbrush_render::render::export::ExportFormat;
@@ -43,6 +44,16 @@ pub struct MeshExport {
     space: Option<Space>,
     /// Makes the overlay that a picture of the plan shows.
     overlay: Option<OverlayMaker>,
+}
+
+/// What was written.
+pub struct WrittenExport {
+    /// The files.
+    pub files: Vec<PathBuf>,
+    /// Quadrilaterals, and triangles.
+    pub cells: [usize; 2],
+    /// What a person should know about weirs in them, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// What the files of a mesh will have in them.
@@ -106,13 +117,14 @@ impl MeshExport {
         Self { overlay, ..self }
     }
 
-    /// Writes the files, and returns their names and the cells in them: squares, and triangles.
+    /// Writes the files, and returns their names, the cells in them (squares, and triangles), and notes for a
+    /// person on weirs.
     ///
     /// # Errors
     /// Fails when a file cannot be written, nodes have no depth, the format cannot hold the mesh, or the work
     /// was cancelled. Existing files are then unchanged.
-    pub fn write(&self, file: &Path, meter: &Meter) -> io::Result<(Vec<PathBuf>, [usize; 2])> {
-        let (extract, lines) = self.extract();
+    pub fn write(&self, file: &Path, meter: &Meter) -> io::Result<WrittenExport> {
+        let (extract, lines, weir_notes) = self.extract();
         let (values, _) = self.values_at_nodes(extract.view())?;
         self.with_data((&extract, &lines), &values, meter, |placed, data| {
             let in_space = |space| self.look_in_space(&space, &extract);
@@ -123,7 +135,8 @@ impl MeshExport {
             let look = Look { space, overlay, ..self.look.clone() };
             let files = self.format.write(file, &self.mesh, placed, data, &look, meter)?;
             let squares = self.squares(placed, data);
-            Ok((files, [squares, extract.triangles().len() - 2 * squares]))
+            let cells = [squares, extract.triangles().len() - 2 * squares];
+            Ok(WrittenExport { files, cells, notes: self.notes(weir_notes, placed, data) })
         })
     }
 
@@ -132,7 +145,7 @@ impl MeshExport {
     /// # Errors
     /// Fails as [`Self::write`] does, except for errors of the file system.
     pub fn measure(&self, meter: &Meter) -> io::Result<ExportFigures> {
-        let (extract, lines) = self.extract();
+        let (extract, lines, _) = self.extract();
         let (values, depths) = self.values_at_nodes(extract.view())?;
         self.with_data((&extract, &lines), &values, meter, |placed, data| {
             let pieces = data.boundary.pieces().list();
@@ -166,7 +179,7 @@ impl MeshExport {
     /// # Errors
     /// Fails when nodes have no depth, and when the work was cancelled.
     pub fn broken_rules(&self, solver: Solver, meter: &Meter) -> io::Result<Vec<BrokenRule>> {
-        let (extract, lines) = self.extract();
+        let (extract, lines, _) = self.extract();
         let (values, _) = self.values_at_nodes(extract.view())?;
         let mut broken = self.with_data((&extract, &lines), &values, meter, |placed, data| {
             Ok(broken_rules(&WrittenMesh::of(placed, data, solver), solver))
@@ -188,14 +201,30 @@ impl MeshExport {
         if self.format.wants_squares() { joined_cells(placed, data).joined_count() } else { 0 }
     }
 
-    /// Returns the mesh as files get it, and its edges along lines.
-    fn extract(&self) -> (Extract<'static>, Vec<LineEdges>) {
+    /// Returns what a person should know about weirs in the files: their gaps, and what of them is lost.
+    fn notes(&self, mut gaps: Vec<String>, placed: &Extract, data: &MeshData) -> Vec<String> {
+        let ExportFormat::Mesh(format) = self.format else { return Vec::new() };
+        if self.settings.lines.iter().any(|line| line.weir().is_some()) {
+            match format.has_weirs() {
+                true => gaps.extend(weir_notes(placed, data)),
+                false => gaps
+                    .push("The file has no place for crests: weirs are edges without a crack there.".into()),
+            }
+        }
+        gaps
+    }
+
+    /// Returns the mesh as files get it, its edges along lines, and notes on gaps of weirs.
+    fn extract(&self) -> (Extract<'static>, Vec<LineEdges>, Vec<String>) {
         let targets = EdgeTargets::by_rule(self.settings.rule, &self.field, &self.paint);
         let cleaning = self.settings.derived_cleaning();
         let derived = DerivedMesh::new(&self.mesh, &self.domain, targets, &cleaning);
         let extract = derived.extract(&self.mesh).into_owned();
-        let lines = LineEdges::all(derived.line_fits(), &extract);
-        (extract, lines)
+        let lines = LineEdges::all(derived.line_fits(), &self.settings.lines, &extract);
+        let fits = self.settings.lines.iter().zip(derived.line_fits());
+        let weirs = fits.filter(|(line, _)| line.weir().is_some());
+        let notes = weirs.filter_map(|(_, fit)| fit.weir_note()).collect();
+        (extract, lines, notes)
     }
 
     /// Calls `use_data` with the mesh in the coordinates of its files, and its data.

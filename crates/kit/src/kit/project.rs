@@ -263,16 +263,18 @@ impl ProjectFile {
         Some(Command::from(FileCommand::SaveTo(path)))
     }
 
-    /// Returns the command that exports to a path that was typed. Asks before it replaces other files.
-    pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
-        let files = ExportFormat::from_path(&path).map_or(Vec::new(), |format| format.files(&path));
+    /// Returns the command that exports to a path that was typed a document with lines, or one without them.
+    /// Asks before it replaces other files.
+    pub fn export_as(&mut self, path: PathBuf, has_lines: bool) -> Option<Command> {
+        let files = ExportFormat::from_path(&path);
+        let files = files.map_or(Vec::new(), |format| format.files_of(&path, has_lines));
         self.ask_to_replace(files, Command::from(FileCommand::Export(path)))
     }
 
-    /// Returns the command that exports to all files again. Asks before it replaces one that this window has
-    /// not written.
-    pub fn export_again(&mut self) -> Option<Command> {
-        self.ask_to_replace(self.exports.foreign_files(), Command::from(FileCommand::ExportAll))
+    /// Returns the command that exports a document with lines, or one without them, to all files again. Asks
+    /// before it replaces one that this window has not written.
+    pub fn export_again(&mut self, has_lines: bool) -> Option<Command> {
+        self.ask_to_replace(self.exports.foreign_files(has_lines), Command::from(FileCommand::ExportAll))
     }
 
     /// Returns the command that writes files. Asks before it replaces any.

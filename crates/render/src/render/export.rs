@@ -178,6 +178,16 @@ impl ExportFormat {
         }
     }
 
+    /// Returns the files that an export to `path` writes of a mesh of a document with lines, or of one
+    /// without them: those of [`Self::files`], and the files of the lines beside them.
+    pub fn files_of(self, path: &Path, has_lines: bool) -> Vec<PathBuf> {
+        let of_lines = match self {
+            Self::Mesh(format) if has_lines => format.line_files(path),
+            _ => Vec::new(),
+        };
+        [self.files(path), of_lines].concat()
+    }
+
     /// Writes the file, or all files of a format that has several, and returns their names. `extract` must be
     /// the extract of `mesh`, and `data` the data of its nodes; a picture needs only the provenance.
     ///

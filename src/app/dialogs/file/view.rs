@@ -339,7 +339,7 @@ impl FileDialog {
 fn written(format: ExportFormat, facts: &FileFacts<'_>, path: &Path) -> String {
     let triangles = facts.triangles;
     let count = format::count(triangles as u64);
-    let files = match format.files(path).len() {
+    let files = match format.files_of(path, !facts.settings.lines.is_empty()).len() {
         1 => String::new(),
         files => format!(" in {files} files"),
     };

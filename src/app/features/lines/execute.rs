@@ -13,7 +13,7 @@ use super::places::fit_in;
 use super::{DocumentLines, LINE, LINE_SIZES, LINES, LineEnd, LineToolMode, LinesCommand, marks};
 use crate::app::features::lines::LineTool;
 use meshbrush_core::document::Setting;
-use meshbrush_core::domain::Line;
+use meshbrush_core::domain::{Line, LineKind};
 use meshbrush_kit::kit::command::{Command, ViewCommand};
 use meshbrush_kit::kit::{Ctx, Feature, Row};
 use meshbrush_mesh::geometry::Rect;
@@ -159,7 +159,7 @@ fn add_drawn(word: &str, mut points: Vec<DVec2>, end: LineEnd, ctx: &mut Ctx<'_>
     let names = (1..).map(|number| format!("{word} {number}"));
     let name = names.into_iter().find(|name| all.iter().all(|line| line.name != *name));
     let name = name.unwrap_or_else(|| word.to_owned());
-    all.push(Line { name, points, closed: end == LineEnd::Closed });
+    all.push(Line { name, points, closed: end == LineEnd::Closed, kind: LineKind::default() });
     let number = all.len() - 1;
     set_lines(all, ctx);
     ctx.tools.note_use(&LINE);

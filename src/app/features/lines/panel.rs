@@ -59,6 +59,7 @@ fn line_row(
     commands: &mut Vec<Command>,
 ) {
     let fit = fit_in(state.session, number);
+    let label = if line.weir().is_some() { format!("{} (weir)", line.name) } else { line.name.clone() };
     let value = fit.map_or("…".to_owned(), share_on_edges);
     let is_whole = fit.is_none_or(|fit| fit.unresolved.is_empty());
     let help = "How much of the line is on edges of the mesh. A click selects it.";
@@ -66,7 +67,7 @@ fn line_row(
     let row = Frame::new()
         .fill(ground)
         .corner_radius(4)
-        .show(ui, |ui| ValueRow::new(&line.name, &value).help(help).stands_out(!is_whole).link().show(ui));
+        .show(ui, |ui| ValueRow::new(&label, &value).help(help).stands_out(!is_whole).link().show(ui));
     if row.inner.clicked() {
         commands.push(Command::from(LinesCommand::Select((!is_selected).then_some(number))));
     }

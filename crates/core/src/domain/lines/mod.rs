@@ -2,16 +2,21 @@
 
 mod arrangement;
 mod clip;
+mod crest_grid;
 mod exact;
 mod straight;
+mod weir;
 
 use glam::DVec2;
 
 use crate::geometry::{Lattice, LatticePoint};
 use arrangement::Arrangement;
 use clip::{ClippedPart, clip};
+pub use crest_grid::{CrestOnGrid, NoCrest};
 pub(crate) use exact::{cross, crossing, is_near, lies_between, place};
 use straight::without_straight_corners;
+pub(crate) use weir::LineMeasure;
+pub use weir::{Crest, LineKind, LineWeirError, Weir, WeirError};
 
 /// A line along which a mesh shall have edges: a breakwater, a thalweg, a dam.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +27,8 @@ pub struct Line {
     pub points: Vec<DVec2>,
     /// Whether the last corner is joined to the first one.
     pub closed: bool,
+    /// What it is for solvers.
+    pub kind: LineKind,
 }
 
 /// Lines with their corners on the lattice of a mesh, overlaid: where lines meet there is a corner, and what
@@ -131,6 +138,23 @@ impl LinePart {
 }
 
 impl Line {
+    /// Returns the weir that it is, if it is one.
+    pub fn weir(&self) -> Option<&Weir> {
+        match &self.kind {
+            LineKind::Edges => None,
+            LineKind::Weir(weir) => Some(weir),
+        }
+    }
+
+    /// Returns the bytes of its corners and its crest.
+    pub fn bytes(&self) -> usize {
+        let crest = self.weir().map_or(0, |weir| match &weir.crest {
+            Crest::Height(_) => 0,
+            Crest::Profile(pairs) => size_of_val(&pairs[..]),
+        });
+        size_of_val(self) + size_of_val(&self.points[..]) + crest
+    }
+
     /// Returns the length in world units, without what is at corners that are not finite.
     pub fn length(&self) -> f64 {
         self.edges().map(|[a, b]| a.distance(b)).filter(|length| length.is_finite()).sum()

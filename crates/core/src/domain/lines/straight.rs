@@ -10,7 +10,7 @@
 
 use glam::DVec2;
 
-use super::Line;
+use super::{Line, LineKind};
 use crate::geometry::{Lattice, nearest_on_segment};
 
 /// The largest distance of a corner that is left out from the straight part, in lattice steps.
@@ -29,7 +29,7 @@ pub(super) fn without_straight_corners(line: &Line, lattice: &Lattice) -> Line {
         leave_out_of_runs(&in_steps, &mut stays);
     }
     let points = line.points.iter().zip(stays).filter_map(|(&p, stays)| stays.then_some(p)).collect();
-    Line { name: line.name.clone(), points, closed: line.closed }
+    Line { name: line.name.clone(), points, closed: line.closed, kind: LineKind::default() }
 }
 
 /// Leaves corners out between those that are not finite numbers.
@@ -120,7 +120,7 @@ mod tests {
     }
 
     fn line(points: Vec<DVec2>, closed: bool) -> Line {
-        Line { name: String::new(), points, closed }
+        Line { name: String::new(), points, closed, kind: LineKind::default() }
     }
 
     fn divided(points: &[DVec2], random: &mut fastrand::Rng) -> Vec<DVec2> {

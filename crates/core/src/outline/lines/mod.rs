@@ -38,7 +38,7 @@ use super::local::{LocalMesh, PatchedMesh, PatchedTriangle, Replaced, rings_arou
 use crate::domain::{LinesOnLattice, RegionOnLattice};
 use crate::geometry::{BoxTree, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch};
-pub use edges::{LineEdge, LineEdges};
+pub use edges::{LineEdge, LineEdges, WeirEdges};
 use island::{Island, Shared};
 pub use report::{LineFit, LineProblem, UnresolvedPlace};
 use sharp::SharpNodes;

@@ -8,6 +8,7 @@ use crate::domain::{LineOnLattice, LinePart, LinesOnLattice, cross, place};
 use crate::geometry::{BoxTree, Lattice, LatticePoint, NumberMap, Rect, nearest_on_segment};
 use crate::mesh::{Extract, Mesh};
 use crate::outline::local::LocalMesh;
+use crate::text::{Number, short_name};
 
 /// Shares of a segment that differ by less than this many lattice steps are the same.
 const SAME_STEPS: f64 = 4.0;
@@ -65,6 +66,28 @@ pub enum LineProblem {
 }
 
 impl LineFit {
+    /// Returns a sentence for a person where a line that is a weir has gaps in the domain, or no edge at all.
+    pub fn weir_note(&self) -> Option<String> {
+        let name = short_name(&self.name);
+        if self.edges.is_empty() {
+            return Some(format!("The weir “{name}” has no edge in the mesh, so that no file has it."));
+        }
+        let in_domain = |part: &&UnresolvedPlace| part.problem != LineProblem::OutsideDomain;
+        let gaps: Vec<&UnresolvedPlace> = self.unresolved.iter().filter(in_domain).collect();
+        let first = gaps.first()?;
+        let count =
+            if gaps.len() == 1 { "a gap".to_owned() } else { format!("{} gaps, the first", gaps.len()) };
+        let help = match first.problem {
+            LineProblem::TooCoarse => " Smaller triangles there close it.",
+            _ => "",
+        };
+        Some(format!(
+            "The weir “{name}” has {count} at x = {}, y = {}, where it is not on edges: water passes at any height.{help}",
+            Number(first.place.x),
+            Number(first.place.y)
+        ))
+    }
+
     /// Takes edges away that are not in a mesh.
     pub(in crate::outline) fn keep_edges_of(&mut self, extract: &Extract) {
         let sorted = |[a, b]: [LatticePoint; 2]| [a.min(b), a.max(b)];

@@ -10,7 +10,7 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use judge::{edges, judge, smallest_angle, smallest_feature};
 use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
-use meshbrush_core::domain::{BoundaryTreatment, Domain, Line};
+use meshbrush_core::domain::{BoundaryTreatment, Domain, Line, LineKind};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{Layer, LayerKind, LineGaps, LineSizes, PaintLayers, SizeFieldSpec};
 use meshbrush_core::outline::{DerivedMesh, LineProblem, MeshDerivation};
@@ -208,7 +208,7 @@ fn lines_on_coasts_keep_the_coast() {
         // One along a part of the outline.
         let ring = domain.region().unwrap().rings().next().unwrap().to_vec();
         let part = ring[..ring.len().min(5)].to_vec();
-        lines.push(Line { name: "outline".into(), points: part, closed: false });
+        lines.push(Line { name: "outline".into(), points: part, closed: false, kind: LineKind::Edges });
         let name = format!("seed {seed}");
         let without = DerivedMesh::new(&built.mesh, &built.domain, None, &Cleaning::NONE);
         let before = judge(&without.extract(&built.mesh), &[], &name);
@@ -353,7 +353,12 @@ fn more_corners_than_the_mesh_resolves_are_listed() {
         let angle = k as f64 / count as f64 * std::f64::consts::TAU;
         dvec2(0.5, 0.5) + (0.3 + 0.05 * (40.0 * angle).sin()) * DVec2::from_angle(angle)
     };
-    let curve = Line { name: "curve".into(), points: (0..count).map(corner).collect(), closed: true };
+    let curve = Line {
+        name: "curve".into(),
+        points: (0..count).map(corner).collect(),
+        closed: true,
+        kind: LineKind::Edges,
+    };
     let derived = derived(&built, &[curve]);
     let found = judge(&derived.extract(&built.mesh), &[], "curve");
     assert!(found.smallest_angle >= LEAST_ANGLE, "{found:?}");

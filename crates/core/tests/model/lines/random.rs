@@ -2,10 +2,15 @@
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
-use meshbrush_core::domain::Line;
+use meshbrush_core::domain::{Line, LineKind};
 
 pub fn line(points: &[[f64; 2]], closed: bool) -> Line {
-    Line { name: "line".into(), points: points.iter().map(|&[x, y]| dvec2(x, y)).collect(), closed }
+    Line {
+        name: "line".into(),
+        points: points.iter().map(|&[x, y]| dvec2(x, y)).collect(),
+        closed,
+        kind: LineKind::Edges,
+    }
 }
 
 fn point(random: &mut Rng) -> DVec2 {
@@ -21,7 +26,7 @@ pub fn lines(random: &mut Rng) -> Vec<Line> {
             let (angle, length) = (random.f64() * std::f64::consts::TAU, 0.05 + 0.4 * random.f64());
             points.push(points[points.len() - 1] + length * DVec2::from_angle(angle));
         }
-        Line { name: format!("line {n}"), points, closed: random.u8(..5) == 0 }
+        Line { name: format!("line {n}"), points, closed: random.u8(..5) == 0, kind: LineKind::Edges }
     };
     (0..count).map(|n| line(n, random)).collect()
 }
@@ -50,7 +55,12 @@ pub fn hostile_lines(random: &mut Rng) -> Vec<Line> {
             3 => vec![dvec2(random.f64(), 0.0), dvec2(random.f64(), 0.0), at(random)],
             _ => (0..random.usize(2..5)).map(|_| at(random)).collect(),
         };
-        all.push(Line { name: format!("hostile line {n}"), points, closed: random.bool() });
+        all.push(Line {
+            name: format!("hostile line {n}"),
+            points,
+            closed: random.bool(),
+            kind: LineKind::Edges,
+        });
     }
     all
 }

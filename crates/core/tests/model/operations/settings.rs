@@ -4,7 +4,9 @@ use std::sync::{Arc, LazyLock};
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::Setting;
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, BoundaryType, Domain, DomainShape, Line};
+use meshbrush_core::domain::{
+    BoundaryMarks, BoundaryTreatment, BoundaryType, Crest, Domain, DomainShape, Line, LineKind, Weir,
+};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_mesh::geometry::Rect;
@@ -78,6 +80,11 @@ fn lines(number: usize) -> Vec<Line> {
         name: format!("line {n}"),
         points: (0..2 + (number + n) % 3).map(|k| place(number + 3 * n + 2 * k)).collect(),
         closed: (number + n) % 4 == 3,
+        kind: match (number + 2 * n) % 5 {
+            0 => LineKind::Weir(Weir::with_crest(Crest::Height(number as f64))),
+            1 => LineKind::Weir(Weir::with_crest(Crest::Profile(vec![[0.0, 1.0], [0.5, n as f64]]))),
+            _ => LineKind::Edges,
+        },
     };
     (0..number % 4).map(line).collect()
 }

@@ -25,7 +25,7 @@ use super::notes::{
 };
 use super::opening::{self, OpenData};
 use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
-use meshbrush_core::domain::{BoundaryMarks, Domain, OutlineOnEarth, Polygon};
+use meshbrush_core::domain::{BoundaryMarks, Crest, Domain, Line, OutlineOnEarth, Polygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, ShapeList, Shapes, Threats};
@@ -176,12 +176,12 @@ impl SavedSettings {
 /// Reads the files that tables and layers name, each once.
 pub(super) struct Files<'a> {
     loading: &'a Loading<'a>,
-    rasters: RasterLoader,
+    pub(super) rasters: RasterLoader,
     projects: BTreeMap<PathBuf, Document>,
-    frame: RasterFrame,
+    pub(super) frame: RasterFrame,
     paint: PaintLayers,
     /// The plane of the domain, if it has one.
-    plane: Option<DocumentPlane>,
+    pub(super) plane: Option<DocumentPlane>,
     /// See [`Loaded::coordinates`].
     coordinates: Option<Coordinates>,
     /// What the coordinates of the domain's file are, if that is known.
@@ -385,6 +385,10 @@ impl Storage for Files<'_> {
         let note = check_lines(file, &shapes)?;
         note.into_iter().for_each(|note| LayerData::note(self, note));
         Ok(shapes)
+    }
+
+    fn crest(&mut self, file: &Path, line: &Line, bounds: Rect) -> Result<Crest, LoadError> {
+        self.crest_of(file, line, bounds)
     }
 }
 

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOutput, SavedParts, SavedPins,
-    SavedSettings, SavedTreatment,
+    RegionCoordinates, SavedCrest, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOutput, SavedParts,
+    SavedPins, SavedSettings, SavedTreatment,
 };
 use crate::io::layers::{FindFile, SavedKind, Stored, compiled, each, point, rect_of};
 use crate::io::lengths::SavedLength;
@@ -95,7 +95,7 @@ impl SavedSettings {
         let of_layers =
             self.layer.iter().flat_map(|layer| [layer.keys.file(), layer.shared.mask_file.as_deref()]);
         let of_paths = self.keep_out.iter().map(|region| region.file.as_deref());
-        let of_lines = self.line.iter().map(|line| line.file.as_deref());
+        let of_lines = self.line.iter().flat_map(|line| [line.file.as_deref(), line.crest_file()]);
         let of_openings = self.domain.open.0.iter().map(|entry| match entry {
             SavedOpen::Polygons(file) => Some(file.as_path()),
             _ => None,
@@ -135,7 +135,14 @@ impl SavedSettings {
         }
         for (index, line) in self.line.iter_mut().enumerate() {
             line.name_after_file();
-            place("file", &mut line.file).map_err(|fault| fault.within(index).within("line"))?;
+            let placed = place("file", &mut line.file).and_then(|()| match &mut line.crest {
+                Some(SavedCrest::Grid(file)) => {
+                    let mut name = Some(std::mem::take(file));
+                    place("crest", &mut name).map(|()| *file = name.unwrap_or_default())
+                }
+                _ => Ok(()),
+            });
+            placed.map_err(|fault| fault.within(index).within("line"))?;
         }
         for (index, output) in self.output.iter_mut().enumerate() {
             output.place_grids(find).map_err(|fault| fault.within(index).within("output"))?;

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::SavedLine;
 use crate::io::KeyFault;
 use crate::io::layers::points;
-use meshbrush_core::domain::Line;
+use meshbrush_core::domain::{Line, LineKind};
 use meshbrush_core::layers::ShapeList;
 
 /// The name of a line that has neither a name nor a file.
@@ -15,9 +15,9 @@ const DEFAULT_NAME: &str = "Line";
 
 impl SavedLine {
     /// Returns a line with its points in place.
-    pub fn of(Line { name, points, closed }: &Line) -> Self {
+    pub fn of(Line { name, points, closed, kind }: &Line) -> Self {
         let points = points.iter().map(DVec2::to_array).collect();
-        Self { name: Some(name.clone()), points: Some(points), closed: *closed, file: None }
+        Self { name: Some(name.clone()), points: Some(points), closed: *closed, ..Self::of_kind(kind) }
     }
 
     /// Returns the lines of a file, with its name.
@@ -32,6 +32,7 @@ impl SavedLine {
 
     /// Returns the points, if they are in place.
     pub(super) fn check(&self) -> Result<Option<Vec<DVec2>>, KeyFault> {
+        self.checked_kind()?;
         match (&self.points, &self.file) {
             (Some(_), Some(_)) => Err(KeyFault::key("file", "a line has `points` or `file`, not both.")),
             (None, None) => Err(KeyFault::entry("points", "a line needs `points` or `file`.")),
@@ -45,8 +46,8 @@ impl SavedLine {
         }
     }
 
-    /// Returns the line, or all lines of its file; `read` reads that. Lines of a file are numbered where it
-    /// has several.
+    /// Returns the line, or all lines of its file, before they have their kind; `read` reads the file. Lines
+    /// of a file are numbered where it has several.
     pub(super) fn load<E: From<KeyFault>>(
         &self,
         read: impl FnOnce(&Path) -> Result<ShapeList, E>,
@@ -55,7 +56,7 @@ impl SavedLine {
         let name = self.name.clone().unwrap_or_else(|| DEFAULT_NAME.into());
         let Some(file) = self.file.as_deref().filter(|_| in_place.is_none()) else {
             let points = in_place.unwrap_or_default();
-            return Ok(vec![Line { name, points, closed: self.closed }]);
+            return Ok(vec![Line { name, points, closed: self.closed, kind: LineKind::Edges }]);
         };
         let ShapeList { points: _, lines, polygons } = read(file)?;
         let open = lines.into_iter().map(|points| (points, false));
@@ -64,7 +65,7 @@ impl SavedLine {
         let is_one = all.len() == 1;
         let numbered = (1..).zip(all).map(|(number, (points, closed))| {
             let name = if is_one { name.clone() } else { format!("{name} {number}") };
-            Line { name, points, closed }
+            Line { name, points, closed, kind: LineKind::Edges }
         });
         Ok(numbered.collect())
     }

@@ -9,7 +9,7 @@ use crate::io::layers::{SavedLayer, TextError};
 use glam::DVec2;
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryTreatment, DepthContour, Domain, DomainShape, Line, Polygon,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, Crest, DepthContour, Domain, DomainShape, Line, Polygon,
 };
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
@@ -127,6 +127,12 @@ pub trait Storage {
     /// # Errors
     /// Fails when they cannot be read, and when there is none.
     fn lines(&mut self, file: &Path) -> Result<ShapeList, Self::Error>;
+
+    /// Returns the crest of a line from a file with a grid of heights; `bounds` are those of the domain.
+    ///
+    /// # Errors
+    /// Fails when it cannot be read, and when the line is far from it.
+    fn crest(&mut self, file: &Path, line: &Line, bounds: Rect) -> Result<Crest, Self::Error>;
 }
 
 impl<L> SavedSettings<L> {
@@ -161,7 +167,7 @@ impl<L> SavedSettings<L> {
             Some((bounds, spacing)) => (Domain { bounds, ..domain }, spacing),
             None => (domain, spacing),
         };
-        let lines = self.read_lines(storage)?;
+        let lines = self.read_lines(storage, domain.bounds)?;
         let keep_out = self.keep_out.iter().map(|region| region.load(|file| storage.polygons(file)));
         let places = |typed: Vec<DVec2>| typed.into_iter().map(|at| domain.place_of(at)).collect::<Vec<_>>();
         let pins = places(self.pins.points()?);
@@ -194,15 +200,21 @@ impl<L> SavedSettings<L> {
         Ok(self.override_settings(settings)?)
     }
 
-    /// Reads the lines along which the mesh has edges.
+    /// Reads the lines along which the mesh has edges; `bounds` are those of the domain.
     ///
     /// # Errors
     /// Fails when they cannot be read, or a value cannot be used.
-    pub(in crate::io) fn read_lines<S: Storage>(&self, storage: &mut S) -> Result<Vec<Line>, S::Error> {
+    pub(in crate::io) fn read_lines<S: Storage>(
+        &self,
+        storage: &mut S,
+        bounds: Rect,
+    ) -> Result<Vec<Line>, S::Error> {
         let mut lines = Vec::new();
         for (index, line) in self.line.iter().enumerate() {
             line.check().map_err(|fault| fault.within(index).within("line"))?;
-            lines.extend(line.load(|file| storage.lines(file))?);
+            let mut read = line.load(|file| storage.lines(file))?;
+            line.give_kind(&mut read, |file, line| storage.crest(file, line, bounds))?;
+            lines.extend(read);
         }
         Ok(lines)
     }

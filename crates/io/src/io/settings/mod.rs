@@ -14,6 +14,7 @@ mod opening;
 mod overrides;
 mod paths;
 mod tables;
+mod weirs;
 mod words;
 
 pub use cut_off::{SavedRing, written_ring};
@@ -23,6 +24,7 @@ pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedOutput, SavedParts, SavedPaths,
     SavedPins, SavedQuantityGrid, SavedSettings, SavedTreatment,
 };
+pub use weirs::{SavedCrest, SavedLineType};
 pub use words::{
     SavedBoundaryType, SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks, word_of,
 };

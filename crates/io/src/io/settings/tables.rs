@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::{SavedName, SavedOpenings, SavedPieceType, SavedRing, SavedRule, SavedUnit};
+use super::{
+    SavedCrest, SavedLineType, SavedName, SavedOpenings, SavedPieceType, SavedRing, SavedRule, SavedUnit,
+};
 use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
 use crate::io::lengths::{GroundArea, GroundLength, METRES, SavedLength, WrittenLengths};
 use meshbrush_mesh::mesh::KeptParts;
@@ -259,6 +261,18 @@ pub struct SavedLine {
     /// A file with lines or polygons, in their place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
+    /// What it is for solvers; edges where it is missing.
+    #[serde(rename = "type", skip_serializing_if = "Option::is_none")]
+    pub line_type: Option<SavedLineType>,
+    /// The height of the crest of a weir.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crest: Option<SavedCrest>,
+    /// The coefficients of the flow across a weir.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subcritical: Option<f64>,
+    /// See [`Self::subcritical`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supercritical: Option<f64>,
 }
 
 /// `[pins]`
