@@ -4,13 +4,17 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::leg::LegSearch;
+use super::place::MeshPlace;
+use super::refine::Refining;
 use super::{
-    CostDensity, CostRange, Passage, PathError, PathMesh, PathMeshing, PathRequest, PathSearch, Planner,
-    Planning, Waypoint, in_plane,
+    CostDensity, CostRange, Effort, Passage, PathError, PathMesh, PathMeshing, PathRequest, PathSearch,
+    Planner, Planning, Walls, Waypoint, in_plane,
 };
 use crate::domain::Domain;
-use crate::geometry::Rect;
+use crate::geometry::{Rect, nearest_on_segment};
 use crate::layers::DepthField;
+use crate::mesh::Progress;
 use crate::text::{Number, rounded};
 
 /// Shallower water counts as if it had this share of the greatest depth.
@@ -111,8 +115,10 @@ enum DeepestStep {
     Close(Box<PathMeshing>),
     /// The cost of each triangle is found.
     Plan(Arc<PathMesh>, Planning),
-    /// The path is found.
-    Search(Arc<PathMesh>, Box<Planner>, Box<PathSearch>),
+    /// The least cost from the first end to the nodes is found.
+    March(Arc<PathMesh>, Box<Planner>, [MeshPlace; 2]),
+    /// The path is moved to where it costs least nearby.
+    Refine(Arc<PathMesh>, Arc<Walls>, Box<Refining>),
     Done,
 }
 
@@ -153,21 +159,33 @@ impl DeepestWay {
             DeepestStep::Plan(mesh, mut planning) => match planning.advance(&*self.cost)? {
                 None => DeepestStep::Plan(mesh, planning),
                 Some(planner) => {
-                    let search = PathSearch::new(&planner, &self.ends, REQUEST);
-                    DeepestStep::Search(mesh, Box::new(planner), Box::new(self.explained(search)?))
+                    let found = |number: usize| {
+                        let which = Waypoint::of(number, 2);
+                        MeshPlace::find(planner.mesh(), self.ends[number], which)
+                    };
+                    let places = [self.explained(found(0))?, self.explained(found(1))?];
+                    DeepestStep::March(mesh, Box::new(planner), places)
                 }
             },
-            DeepestStep::Search(mesh, mut planner, mut search) => {
-                let found = search.advance(&mut planner, &*self.cost, PathSearch::NODES_AT_ONCE);
-                match self.explained(found)? {
-                    None => DeepestStep::Search(mesh, planner, search),
-                    Some(path) => {
-                        self.check(&path.points)?;
-                        let tolerance = TOLERANCE * diameter_along(&mesh, &path.points);
-                        return Ok(Some(path.simplified(&*self.cost, tolerance)?.points));
+            DeepestStep::March(mesh, mut planner, places) => {
+                match planner.march_one(&places, false, 0, PathSearch::NODES_AT_ONCE) {
+                    Some(Progress::More) => DeepestStep::March(mesh, planner, places),
+                    Some(Progress::Done) | None => {
+                        // Bounds and other ways that cost about the same, as for a path, are not asked for.
+                        let traced = LegSearch::new(0, places, PathRequest::FULL).trace(&planner, 2);
+                        let refining = Refining::new(self.explained(traced)?, Effort::FULL);
+                        DeepestStep::Refine(mesh, Arc::clone(&planner.walls), Box::new(refining))
                     }
                 }
             }
+            DeepestStep::Refine(mesh, walls, mut refining) => match refining.advance(&*self.cost, &walls) {
+                None => DeepestStep::Refine(mesh, walls, refining),
+                Some(points) => {
+                    self.check(&points)?;
+                    let tolerance = TOLERANCE * diameter_along(&mesh, &points);
+                    return Ok(Some(self.simplified(&points, tolerance, &walls)));
+                }
+            },
             DeepestStep::Done => return Ok(Some(Vec::new())),
         };
         Ok(None)
@@ -178,7 +196,7 @@ impl DeepestWay {
         match self.step {
             DeepestStep::Close(_) => 0,
             DeepestStep::Plan(..) => 1,
-            DeepestStep::Search(..) => 2,
+            DeepestStep::March(..) | DeepestStep::Refine(..) => 2,
             DeepestStep::Done => Self::STAGES,
         }
     }
@@ -191,22 +209,44 @@ impl DeepestWay {
         result.map_err(|error| error.in_domain(&self.domain, &self.ends).into())
     }
 
-    /// Checks that a way is in water, in steps of a part of a pixel.
+    /// Checks that a way is in water.
     fn check(&self, points: &[DVec2]) -> Result<(), DeepestWayError> {
-        let step = STEP * self.depths.pixel_size();
-        for pair in points.windows(2) {
-            let count = (pair[0].distance(pair[1]) / step).ceil().clamp(1.0, 1e6) as u32;
-            let mut places = (0..=count).map(|n| pair[0].lerp(pair[1], f64::from(n) / f64::from(count)));
-            if let Some(at) = places.find(|&at| is_land(&self.depths, at)) {
-                return Err(DeepestWayError::OverLand { at });
-            }
+        match points.windows(2).find_map(|pair| self.land_between(pair[0], pair[1])) {
+            Some(at) => Err(DeepestWayError::OverLand { at }),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Returns the first place on land of a segment, in steps of a part of a pixel.
+    fn land_between(&self, from: DVec2, to: DVec2) -> Option<DVec2> {
+        let step = STEP * self.depths.pixel_size();
+        let count = (from.distance(to) / step).ceil().clamp(1.0, 1e6) as u32;
+        let mut places = (0..=count).map(|n| from.lerp(to, f64::from(n) / f64::from(count)));
+        places.find(|&at| is_land(&self.depths, at))
+    }
+
+    /// Returns a way with fewer points, none of which is farther than a tolerance from those that are left
+    /// out (Douglas and Peucker's method), where it stays in water and crosses no wall.
+    fn simplified(&self, points: &[DVec2], tolerance: f64, walls: &Walls) -> Vec<DVec2> {
+        let last = points.len() - 1;
+        let mut stays = vec![false; points.len()];
+        (stays[0], stays[last]) = (true, true);
+        let mut parts = vec![[0, last]];
+        while let Some([from, to]) = parts.pop() {
+            let ends = [points[from], points[to]];
+            let distance = |at: usize| nearest_on_segment(points[at], ends).distance(points[at]);
+            let farthest = (from + 1..to).max_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            let Some(farthest) = farthest else { continue };
+            let is_near = distance(farthest) <= tolerance;
+            if is_near && walls.admit(ends[0], ends[1]) && self.land_between(ends[0], ends[1]).is_none() {
+                continue;
+            }
+            stays[farthest] = true;
+            parts.extend([[from, farthest], [farthest, to]]);
+        }
+        points.iter().zip(stays).filter(|(_, stays)| *stays).map(|(&at, _)| at).collect()
     }
 }
-
-/// A path as good as it gets, without bounds.
-const REQUEST: PathRequest = PathRequest { has_bounds: false, tolerance: 1e-3, ..PathRequest::FULL };
 
 fn is_land(depths: &DepthField, at: DVec2) -> bool {
     depths.depth_at(at).is_none_or(|depth| depth <= 0.0)

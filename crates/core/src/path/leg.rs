@@ -209,7 +209,7 @@ impl LegSearch {
     }
 
     /// Follows the march from the start.
-    fn trace(&self, planner: &Planner, places: usize) -> Result<Vec<DVec2>, PathError> {
+    pub(super) fn trace(&self, planner: &Planner, places: usize) -> Result<Vec<DVec2>, PathError> {
         planner.traced(self.leg, self.ends).ok_or_else(|| {
             let [from, to] = [self.leg, self.leg + 1].map(|index| Waypoint::of(index, places));
             obstacle(&planner.mesh, self.ends, [from, to])

@@ -1,6 +1,6 @@
 //! The lines, with what of each is on edges of the mesh, and what can be done with the selected one.
 
-use eframe::egui::{Frame, Ui};
+use eframe::egui::{Color32, Frame, Margin, Ui};
 
 use super::files::ADD_LINES;
 use super::places::{fit_in, reason};
@@ -19,6 +19,8 @@ pub static LINES: Panel = Panel { name: "lines", tab: Tab::Domain, place: 1, sho
 
 /// The most lines in the list.
 const MOST_ROWS: usize = 50;
+/// By how much the ground of the selected row is wider than its text, in points.
+const GROUND_MARGIN: i8 = 6;
 /// Space around a line that is shown as a whole, as a share of its size.
 const SPACE_AROUND: f64 = 0.1;
 
@@ -63,11 +65,12 @@ fn line_row(
     let value = fit.map_or("…".to_owned(), share_on_edges);
     let is_whole = fit.is_none_or(|fit| fit.unresolved.is_empty());
     let help = "How much of the line is on edges of the mesh. A click selects it.";
-    let ground = if is_selected { tokens(ui).field } else { eframe::egui::Color32::TRANSPARENT };
-    let row = Frame::new()
-        .fill(ground)
-        .corner_radius(4)
-        .show(ui, |ui| ValueRow::new(&label, &value).help(help).stands_out(!is_whole).link().show(ui));
+    let ground = if is_selected { tokens(ui).field } else { Color32::TRANSPARENT };
+    // The ground reaches beyond the text, which stays aligned with that of other rows.
+    let [beyond, within] = [-GROUND_MARGIN, GROUND_MARGIN].map(|margin| Margin::symmetric(margin, 0));
+    let frame = Frame::new().fill(ground).corner_radius(4).outer_margin(beyond).inner_margin(within);
+    let row = ValueRow::new(&label, &value).help(help).stands_out(!is_whole).link();
+    let row = frame.show(ui, |ui| row.show(ui));
     if row.inner.clicked() {
         commands.push(Command::from(LinesCommand::Select((!is_selected).then_some(number))));
     }
