@@ -149,7 +149,7 @@ def test_options_are_changed_and_undone() -> None:
 
 
 def test_options_that_cannot_be_met_change_nothing() -> None:
-    good = [dict(max_level=3), dict(gradation=0.2), dict(h_max=0.3), dict(keep_pinches=True), dict(parts="all"), dict(h_min=0.02)]
+    good = [dict(max_level=3), dict(gradation=0.2), dict(h_max=0.3), dict(keep_pinches=True), dict(improve_boundary=True), dict(parts="all"), dict(h_min=0.02)]
     bad = [dict(h_max=-1), dict(h_min=0.5, h_max=0.1), dict(spacing=1e-9), dict(boundary="fitted"), dict(max_triangles=1), dict(rule="other")]
     random = np.random.default_rng(17)
     for number in range(60):
