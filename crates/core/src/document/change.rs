@@ -89,7 +89,6 @@ impl Settings {
         }
         let field = (transfer, layers, gradation) != (old_transfer, old_layers, old_gradation)
             || (outline && self.shows(Layer::follows_outline))
-            // Names and types of pieces matter to distances alone.
             || (boundary_marks != old_boundary_marks && self.shows(|layer| layer.kind.follows_pieces()))
             || (lines != old_lines && self.shows(|layer| layer.kind.follows_lines()));
         self.change_on_grid(old, [outline, field], paint)

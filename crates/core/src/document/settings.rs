@@ -32,8 +32,7 @@ pub struct Settings {
     pub cleaning: Cleaning,
     /// Names, types and splits of the boundary. The mesh depends on them through layers that follow pieces.
     pub boundary_marks: Arc<BoundaryMarks>,
-    /// Lines along which the derived mesh has edges. The mesh itself depends on them through layers that
-    /// follow lines.
+    /// Lines along which the derived mesh has edges. The mesh depends on them through layers.
     pub lines: Arc<Vec<Line>>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
@@ -321,8 +320,7 @@ impl Settings {
         layer
     }
 
-    /// Finds the straits and the middle of the water of the domain for the layers that ask for them, the gaps
-    /// between lines, and the slopes of the ground for those that ask for slopes.
+    /// Finds straits, the middle of the water, gaps between lines and slopes for layers that ask for them.
     pub(super) fn find_straits(&mut self) {
         for layer in &mut self.layers {
             layer.kind.follow_domain(&self.domain, &self.boundary_marks);
@@ -375,8 +373,7 @@ impl Settings {
         !self.domain.is_whole() && self.boundary != BoundaryTreatment::Report
     }
 
-    /// Returns whether files get another mesh than the one of right-angled triangles: where that meets an
-    /// outline, or has edges along lines.
+    /// Returns whether files get a derived mesh: fitted to an outline, or with edges along lines.
     pub fn is_derived(&self) -> bool {
         !self.lines.is_empty() || self.outline().is_some()
     }

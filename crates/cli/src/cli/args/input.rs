@@ -91,11 +91,10 @@ pub struct InputArguments {
     #[arg(long)]
     pub keep_pinches: bool,
 
-    /// Improve triangles along the outline: angles of at least 25° where the outline allows it, no triangle with
-    /// all three nodes on the boundary, and at most 8 triangles at a node
+    /// Improve triangles along the outline: angles of at least 25° where it allows them, no triangle with all
+    /// three nodes on the boundary, and at most 8 triangles at a node
     ///
-    /// Nodes slide along the outline, edges flip, and nodes are put between those of the boundary. What
-    /// remains is in the report.
+    /// Nodes slide along the outline, edges flip, and nodes are put between those of the boundary.
     #[arg(long)]
     pub improve_boundary: bool,
 

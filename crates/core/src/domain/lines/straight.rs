@@ -37,7 +37,7 @@ fn leave_out_of_runs(points: &[DVec2], stays: &mut [bool]) {
     let mut first = 0;
     for run in points.chunk_by(|a, b| a.is_finite() && b.is_finite()) {
         let end = first + run.len();
-        Run { points, stays }.leave_out(first, end - 1, 0);
+        CornerRun { points, stays }.leave_out(first, end - 1, 0);
         first = end;
     }
 }
@@ -50,7 +50,7 @@ fn leave_out_of_ring(points: &[DVec2], stays: &mut [bool]) {
     let turned: Vec<DVec2> = (0..=points.len()).map(|n| points[(begin + n) % points.len()]).collect();
     let mut turned_stays = vec![true; turned.len()];
     let last = points.len();
-    let mut run = Run { points: &turned, stays: &mut turned_stays };
+    let mut run = CornerRun { points: &turned, stays: &mut turned_stays };
     run.leave_out(0, last, 0);
     for (n, stays_there) in turned_stays.iter().take(last).enumerate() {
         stays[(begin + n) % last] = *stays_there;
@@ -58,12 +58,12 @@ fn leave_out_of_ring(points: &[DVec2], stays: &mut [bool]) {
 }
 
 /// Corners in lattice steps, and whether each stays.
-struct Run<'a> {
+struct CornerRun<'a> {
     points: &'a [DVec2],
     stays: &'a mut [bool],
 }
 
-impl Run<'_> {
+impl CornerRun<'_> {
     /// Leaves out the corners between two that stay, if all are near the chord; divides the run otherwise.
     fn leave_out(&mut self, first: usize, last: usize, divisions: u32) {
         if last < first + 2 || divisions == MOST_DIVISIONS {

@@ -1,11 +1,11 @@
 //! Edges along lines inside the domain.
 //!
 //! This works on the mesh with its nodes on the outline, and changes only triangles around the lines
-//! ([`local`](super::local)). First, corners, ends and crossings of the lines become nodes; then each straight segment
-//! between two of them is followed from triangle to triangle. Where it crosses an edge, the nearer end moves
-//! there, or the edge is flipped or gets a node ([`insert`]). Then edges are flipped, nodes shifted and nodes
-//! that are too near to each other joined, as far as that makes the smallest angles larger ([`Improver`](super::local::Improver));
-//! nodes on a line stay on it.
+//! ([`local`](super::local)). First, corners, ends and crossings of the lines become nodes; then each
+//! straight segment between two of them is followed from triangle to triangle. Where it crosses an edge, the
+//! nearer end moves there, or the edge is flipped or gets a node ([`insert`]). Then edges are flipped, nodes
+//! shifted and nodes that are too near to each other joined, as far as that makes the smallest angles larger
+//! ([`Improver`](super::local::Improver)); nodes on a line stay on it.
 //!
 //! Where an angle is still too small or an edge longer than its target, the stretch of a line there is *left
 //! out*, and everything is done again without it ([`island`]). So the mesh keeps the bounds on angles and

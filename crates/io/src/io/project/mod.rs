@@ -44,6 +44,7 @@ mod saved_background;
 mod saved_cut;
 mod settings;
 mod stored_layers;
+mod stored_lines;
 mod tiled;
 
 use std::borrow::Cow;

@@ -16,11 +16,10 @@ use super::paths::StoredPaths;
 use super::saved_background::SavedBackground;
 use super::saved_cut::SavedCut;
 use super::stored_layers::{StoredLayer, check_raster_sizes};
+use super::stored_lines::StoredLine;
 use super::{FORMAT, VERSION};
 use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryTreatment, Crest, Domain, DomainShape, Line, LineKind, OutlineOnEarth, Weir,
-};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, OutlineOnEarth};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::raster::is_raster_size;
@@ -115,71 +114,6 @@ enum SavedBoundary {
     OnOutline(f64),
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StoredLine {
-    name: String,
-    /// x and y of each corner.
-    points: Vec<[f64; 2]>,
-    #[serde(default)]
-    closed: bool,
-    /// Missing where it is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    weir: Option<StoredWeir>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StoredWeir {
-    crest: StoredCrest,
-    subcritical: f64,
-    supercritical: f64,
-}
-
-/// In metres, positive upwards.
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum StoredCrest {
-    Height(f64),
-    /// Shares of the length and the heights there.
-    Profile(Vec<[f64; 2]>),
-}
-
-impl StoredLine {
-    fn of(Line { name, points, closed, kind }: &Line) -> Self {
-        let points = points.iter().map(DVec2::to_array).collect();
-        let weir = match kind {
-            LineKind::Edges => None,
-            LineKind::Weir(weir) => Some(StoredWeir::of(weir)),
-        };
-        Self { name: name.clone(), points, closed: *closed, weir }
-    }
-
-    fn load(self) -> Line {
-        let points = self.points.into_iter().map(DVec2::from_array).collect();
-        let kind = self.weir.map_or(LineKind::Edges, |weir| LineKind::Weir(weir.load()));
-        Line { name: self.name, points, closed: self.closed, kind }
-    }
-}
-
-impl StoredWeir {
-    fn of(Weir { crest, subcritical, supercritical }: &Weir) -> Self {
-        let crest = match crest {
-            Crest::Height(height) => StoredCrest::Height(*height),
-            Crest::Profile(pairs) => StoredCrest::Profile(pairs.clone()),
-        };
-        Self { crest, subcritical: *subcritical, supercritical: *supercritical }
-    }
-
-    fn load(self) -> Weir {
-        let crest = match self.crest {
-            StoredCrest::Height(height) => Crest::Height(height),
-            StoredCrest::Profile(pairs) => Crest::Profile(pairs),
-        };
-        Weir { crest, subcritical: self.subcritical, supercritical: self.supercritical }
-    }
-}
-
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SavedMarks {
@@ -210,14 +144,8 @@ impl SavedMarks {
 struct SavedCleaning {
     parts: StoredParts,
     keep_pinches: bool,
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     improve_boundary: bool,
-}
-
-/// Whether a key is left out of a project, so that earlier versions read it.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// A share is a table here and a plain number in recipes.

@@ -1,5 +1,6 @@
 //! The tables of settings as texts have them.
 
+use std::ops::Not;
 use std::path::PathBuf;
 
 use serde::de::{Deserializer, Error, Visitor};
@@ -120,7 +121,7 @@ pub struct SavedDomain {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_inlet: Option<GroundLength>,
     /// Whether the domain is where the grid has values.
-    #[serde(skip_serializing_if = "is_no")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub outside_nodata: bool,
     /// Rings whose insides are cut off the domain.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -149,6 +150,7 @@ pub struct SavedDomain {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep_pinches: Option<bool>,
     /// Whether triangles along the outline are changed for better angles.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub improve_boundary: Option<bool>,
     /// Where the boundary is open.
     #[serde(skip_serializing_if = "SavedOpenings::is_empty")]
@@ -256,7 +258,7 @@ pub struct SavedLine {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<Vec<[f64; 2]>>,
     /// Whether the last corner is joined to the first one.
-    #[serde(skip_serializing_if = "is_no")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub closed: bool,
     /// A file with lines or polygons, in their place.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -291,7 +293,7 @@ pub struct SavedOutput {
     /// The file, whose ending decides the format.
     pub file: PathBuf,
     /// Whether a format that is text otherwise is written in its binary form.
-    #[serde(default, skip_serializing_if = "is_no")]
+    #[serde(default, skip_serializing_if = "Not::not")]
     pub binary: bool,
     /// The cells of a format that can have quadrilaterals: `"triangles"` or `"squares"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -309,7 +311,7 @@ pub struct SavedOutput {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_slope: Option<f64>,
     /// Whether the third coordinate is 0, and not the height of a surface.
-    #[serde(default, skip_serializing_if = "is_no")]
+    #[serde(default, skip_serializing_if = "Not::not")]
     pub flat: bool,
     /// Width, or width and height, of a picture in pixels or as lengths, as in `"1600x900"` or `"160mm"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -419,10 +421,6 @@ impl Serialize for SavedParts {
             Self::Share(share) => to.serialize_f64(share),
         }
     }
-}
-
-fn is_no(value: &bool) -> bool {
-    !value
 }
 
 struct PartsVisitor;
