@@ -31,7 +31,7 @@ impl Feature for DocumentLines {
         panels: &[&LINES],
         roles: &ROLES,
         gestures: &GESTURES,
-        marks: marks::paint,
+        marks_below: marks::paint,
         entries,
         ..Row::EMPTY
     };
