@@ -32,7 +32,7 @@ impl Feature for DocumentLines {
         layer_kinds: &[&LINE_SIZES],
         roles: &ROLES,
         gestures: &GESTURES,
-        marks: marks::paint,
+        marks_below: marks::paint,
         entries,
         ..Row::EMPTY
     };

@@ -10,7 +10,7 @@ use meshbrush_ui::widgets::{dropdown_row, toggle_row};
 
 /// What a press does, and whether corners snap.
 pub static LINE_OPTIONS: [StripItem; 2] = [
-    StripItem::new(208.0, 0, mode_row),
+    StripItem::new(232.0, 0, mode_row),
     StripItem::new(80.0, 1, snap_row).only(|state| {
         let mode = state.tools.settings::<LineTool>().mode;
         !matches!(mode, LineToolMode::Rectangle | LineToolMode::Circle)
