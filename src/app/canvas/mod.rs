@@ -383,7 +383,7 @@ impl Canvas {
         if let Some(pointer) = pointer {
             let radius = state.tools.radius as f32 * camera.px_per_world() as f32 / px_per_point;
             self.draw_brush(ui, state, &over, pointer, radius);
-            price::show(ui, state, rect, pointer, radius);
+            price::show(ui, state, (rect, &self.floats), pointer, radius);
         }
         if response.contains_pointer() || self.gesture.is_some() {
             ui.ctx().set_cursor_icon(self.cursor(ui.ctx(), state.tools));

@@ -1,6 +1,6 @@
 //! The tag beside the brush ring: what a click there would add or free.
 
-use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
+use eframe::egui::{Align, Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
 use crate::app::features::painting::picks;
 use meshbrush_core::document::{NoChange, NoPaintLayer, Price, Settings};
@@ -21,14 +21,14 @@ const FARTHEST: f32 = 120.0;
 /// Radius around the eyedropper that the tag leaves free, in points.
 const PICKER: f32 = 18.0;
 
-/// Shows the tag beside a ring of the given radius in points.
-pub fn show(ui: &Ui, state: &FrameState<'_>, canvas: Rect, pointer: Pos2, radius: f32) {
+/// Shows the tag beside a ring of the given radius in points. `floats` are drawn over the canvas.
+pub fn show(ui: &Ui, state: &FrameState<'_>, (canvas, floats): (Rect, &[Rect]), pointer: Pos2, radius: f32) {
     let picks = state.tools.paints() && ui.input(|input| picks(input.modifiers) && !input.pointer.any_down());
     let (tag, reach) =
         if picks { (picked_tag(state, tokens(ui)), PICKER) } else { (price_tag(state, tokens(ui)), radius) };
     let Some((text, color)) = tag else { return };
     let bounds = canvas.shrink(8.0);
-    let (anchor, align) = place(bounds, pointer, reach, tag_size(ui, &text));
+    let (anchor, align) = place(bounds, floats, pointer, reach, tag_size(ui, &text));
     floating_tag(ui, anchor, align, bounds, &text, color);
 }
 
@@ -144,18 +144,31 @@ fn tag(price: Price, count: usize, settings: &Settings, t: &Tokens) -> (String, 
 }
 
 /// Returns the place of a tag of the given size: right of the ring, else left, else below, else above; never
-/// over its middle.
-fn place(bounds: Rect, pointer: Pos2, radius: f32, size: Vec2) -> (Pos2, Align2) {
+/// over its middle, and not below what floats over the canvas if there is another place.
+fn place(bounds: Rect, floats: &[Rect], pointer: Pos2, radius: f32, size: Vec2) -> (Pos2, Align2) {
     let reach = radius.min(FARTHEST) + GAP;
-    if pointer.x + reach + size.x <= bounds.right() {
-        (pointer + vec2(reach, 0.0), Align2::LEFT_CENTER)
-    } else if pointer.x - reach - size.x >= bounds.left() {
-        (pointer - vec2(reach, 0.0), Align2::RIGHT_CENTER)
-    } else if pointer.y + reach + size.y <= bounds.bottom() {
-        (pointer + vec2(0.0, reach), Align2::CENTER_TOP)
-    } else {
-        (pointer - vec2(0.0, reach), Align2::CENTER_BOTTOM)
-    }
+    let places = [
+        (vec2(reach, 0.0), Align2::LEFT_CENTER),
+        (vec2(-reach, 0.0), Align2::RIGHT_CENTER),
+        (vec2(0.0, reach), Align2::CENTER_TOP),
+        (vec2(0.0, -reach), Align2::CENTER_BOTTOM),
+    ];
+    let places = places.map(|(by, align)| (pointer + by, align));
+    let fits = |(anchor, align): &&(Pos2, Align2)| {
+        let rect = align.anchor_size(*anchor, size);
+        let is_beside = align.y() == Align::Center;
+        if is_beside {
+            bounds.x_range().contains(rect.left()) && bounds.x_range().contains(rect.right())
+        } else {
+            bounds.y_range().contains(rect.top()) && bounds.y_range().contains(rect.bottom())
+        }
+    };
+    let is_free = |(anchor, align): &&(Pos2, Align2)| {
+        let rect = align.anchor_size(*anchor, size);
+        !floats.iter().any(|float| float.intersects(rect))
+    };
+    let found = places.iter().filter(fits).find(is_free).or_else(|| places.iter().find(fits));
+    *found.unwrap_or(&places[3])
 }
 
 #[cfg(test)]
@@ -187,12 +200,28 @@ mod tests {
             let share = vec2(x as f32, y as f32) / 20.0;
             let pointer = bounds.min + share * bounds.size();
             for radius in [2.0, 30.0, 90.0, 1000.0] {
-                let (anchor, align) = place(bounds, pointer, radius, size);
+                let (anchor, align) = place(bounds, &[], pointer, radius, size);
                 let rect = align.anchor_size(anchor, size);
                 let free = bounds.shrink2(size / 2.0);
                 let shown = Rect::from_center_size(free.clamp(rect.center()), size);
                 assert!(!shown.expand(GAP - 1.0).contains(pointer), "{pointer} {radius} {shown}");
             }
         }
+    }
+
+    #[test]
+    fn the_tag_is_not_below_what_floats_over_the_canvas() {
+        let (bounds, size) = (Rect::from_min_size(pos2(0.0, 0.0), vec2(500.0, 400.0)), vec2(120.0, 28.0));
+        let legend = Rect::from_min_size(pos2(340.0, 10.0), vec2(150.0, 200.0));
+        let rect = |pointer| {
+            let (anchor, align) = place(bounds, &[legend], pointer, 20.0, size);
+            align.anchor_size(anchor, size)
+        };
+        let pointer = pos2(300.0, 100.0);
+        assert!(rect(pointer).right() < pointer.x, "left of the ring, as the legend is on the right");
+        assert!(rect(pos2(300.0, 300.0)).left() > 300.0, "nothing is on the right here");
+        let narrow = Rect::from_min_size(pos2(0.0, 0.0), vec2(340.0, 400.0));
+        let (anchor, align) = place(bounds, &[legend, narrow], pointer, 20.0, size);
+        assert!(align.anchor_size(anchor, size).left() > pointer.x, "no place is free: the first that fits");
     }
 }

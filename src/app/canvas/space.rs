@@ -106,7 +106,7 @@ impl Canvas {
         {
             self.paint_ring(ui, state, &over, &sight, (pointer, world));
             let radius = state.tools.radius * px_per_world;
-            price::show(ui, state, rect, pointer, radius as f32 / px_per_point);
+            price::show(ui, state, (rect, &self.floats), pointer, radius as f32 / px_per_point);
         }
         if response.contains_pointer() || self.gesture.is_some() {
             ui.ctx().set_cursor_icon(self.cursor(ui.ctx(), state.tools));
