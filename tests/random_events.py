@@ -7,8 +7,8 @@
 PROGRAM is target/release/meshbrush if none is named. MINUTES (60) are shared among four documents: a painted one, a
 sea with islands, one with every kind of layer, and threats with a path. DOCUMENT, a name among those below, takes
 all of them. Needs Xvfb and xdotool.
-Fails if the program ends, panics, does not come to rest within a minute after a burst of events, or shows a failure
-that Escape does not dismiss; the window's picture is then in target/tmp/random_events.png, and
+Fails if the program ends, panics, does not come to rest within a minute after a burst of events, draws frames at rest,
+or shows a failure that Escape does not dismiss; the window's picture is then in target/tmp/random_events.png, and
 its journal, from which the document can be opened again, in target/tmp/random_events. Prints for each document the events, the longest wait, and the memory at the start, the
 most and at the end.
 """
@@ -225,6 +225,10 @@ def torment(window, rng, document, seconds):
     window.xdotool("mousemove", SIZE[0] // 2, SIZE[1] // 2, "sleep", 1)
     window.settle()
     time.sleep(MEMORY_RETURNED_S)
+    last_frame = window.last_frame
+    time.sleep(MEMORY_RETURNED_S)
+    if window.last_frame != last_frame:
+        window.fail("frames are drawn while nothing happens")
     if window.message.startswith("failed"):
         window.fail("a message is left that Escape does not dismiss")
     print(f"{document:20} {events:6} events, longest wait {longest:.1f} s, at most {window.most_triangles} triangles, "

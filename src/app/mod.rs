@@ -287,7 +287,7 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
         self.advance(ctx);
         if let Some(spare_memory) = &mut self.spare_memory {
-            spare_memory.note_frame(ctx, &self.jobs);
+            spare_memory.note_frame(ctx, &self.session, &self.jobs);
         }
         if let Some(storage) = frame.storage_mut().filter(|_| !ctx.input(|input| input.pointer.any_down())) {
             self.store_brush(storage);
