@@ -69,17 +69,12 @@ impl CornerRun<'_> {
         if last < first + 2 || divisions == MOST_DIVISIONS {
             return;
         }
-        if self.farthest(first, last) <= TOLERANCE {
-            self.stays[first + 1..last].fill(false);
-        } else {
-            self.divide(first, last, divisions);
-        }
-    }
-
-    /// Keeps all corners that are farthest from the chord.
-    fn divide(&mut self, first: usize, last: usize, divisions: u32) {
-        let farthest = self.farthest(first, last);
         let ends = self.chord(first, last);
+        let farthest = (first + 1..last).map(|n| self.distance(n, ends)).fold(0.0, f64::max);
+        if farthest <= TOLERANCE {
+            return self.stays[first + 1..last].fill(false);
+        }
+        // All corners that are farthest from the chord stay.
         let mut from = first;
         for n in first + 1..last {
             if self.distance(n, ends) == farthest {
@@ -88,11 +83,6 @@ impl CornerRun<'_> {
             }
         }
         self.leave_out(from, last, divisions + 1);
-    }
-
-    fn farthest(&self, first: usize, last: usize) -> f64 {
-        let ends = self.chord(first, last);
-        (first + 1..last).map(|n| self.distance(n, ends)).fold(0.0, f64::max)
     }
 
     /// The ends of a chord, the lower one first: the same numbers in both directions.

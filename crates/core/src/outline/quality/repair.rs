@@ -72,7 +72,8 @@ impl<'a> DefectIsland<'a> {
     pub(super) fn repaired(mut self) -> LocalMesh {
         let mut improved = self.now.clone();
         self.improve(&mut improved);
-        self.take(improved);
+        let badness = improved.badness(self.rules.angles);
+        self.take(improved, badness);
         for _ in 0..MOST_CHANGES {
             let attempts = self.now.attempts(self.rules.angles);
             if !attempts.into_iter().any(|attempt| self.try_out(attempt)) {
@@ -95,8 +96,7 @@ impl<'a> DefectIsland<'a> {
     }
 
     /// Takes triangles in the place of those now, if they are better.
-    fn take(&mut self, triangles: DefectTriangles) -> bool {
-        let badness = triangles.badness(self.rules.angles);
+    fn take(&mut self, triangles: DefectTriangles, badness: Badness) -> bool {
         let is_better = badness.defects < self.badness.defects
             || (badness.defects == self.badness.defects && badness.worst < self.badness.worst);
         if is_better && badness.worst <= self.badness.worst.max(COT_25) {
@@ -113,8 +113,8 @@ impl<'a> DefectIsland<'a> {
             return false;
         }
         self.improve(&mut triangles);
-        let has_fewer = triangles.badness(self.rules.angles).defects < self.badness.defects;
-        has_fewer && self.take(triangles)
+        let badness = triangles.badness(self.rules.angles);
+        badness.defects < self.badness.defects && self.take(triangles, badness)
     }
 }
 

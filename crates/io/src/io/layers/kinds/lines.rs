@@ -13,11 +13,11 @@ use meshbrush_core::layers::{LayerKind, LineGaps, LineSizes};
 #[serde(deny_unknown_fields)]
 pub struct LineSizeKeys {
     /// Triangles across the gap between two parts of lines.
-    #[serde(default = "one")]
+    #[serde(default = "enough_across")]
     pub across: f64,
 }
 
-fn one() -> f64 {
+fn enough_across() -> f64 {
     LineSizes::ENOUGH_ACROSS
 }
 
