@@ -96,7 +96,8 @@ def recipes() -> list[str]:
         f"[[keep_out]]\nname = \"zone\"\npolygons = {SQUARE}",
         "[[keep_out]]\nname = \"zone\"\nfile = \"far.geojson\"",
     )]
-    on_rectangle = [f"[domain]\n{DOMAINS[1]}\n{entry}\n{tables}" for entry in ON_OUTLINE]
+    cleaning = ["improve_boundary = true", "keep_pinches = true"]
+    on_rectangle = [f"[domain]\n{DOMAINS[1]}\n{entry}\n{tables}" for entry in ON_OUTLINE + cleaning]
     return of_layers + of_outline + to_outline + in_places + on_rectangle
 
 

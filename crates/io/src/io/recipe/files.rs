@@ -21,7 +21,8 @@ use super::file_frame::{OutlineSource, check_east, part_in_bounds, sea_notes, se
 use super::grid_region::contour_of_grid;
 use super::line_files::check_lines;
 use super::notes::{
-    cut_at_antimeridian, far_places, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
+    cut_at_antimeridian, far_places, idle_cleaning, in_the_plane, mark_notes, no_open_boundary, notes,
+    places_in_degrees,
 };
 use super::opening::{self, OpenData};
 use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
@@ -136,6 +137,7 @@ impl SavedSettings {
         let without_effect = notes(&settings, &files.paint, has_frame)
             .into_iter()
             .chain(far_places(&settings))
+            .chain(idle_cleaning(&self.domain, &settings))
             .chain(idle.without_effect)
             .chain(opened);
         let without_effect: Vec<String> = without_effect.map(|note| abridged(&note)).collect();

@@ -9,7 +9,7 @@ use super::super::Number;
 use super::super::geojson::Outline;
 use super::super::settings::{SavedDomain, SavedSettings, marks_of};
 use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{BoundaryPieces, PieceChoice};
+use meshbrush_core::domain::{BoundaryPieces, BoundaryTreatment, PieceChoice};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{DistanceLayer, DistanceTo, Layer, LayerKind, PaintLayers, RasterSource};
 use meshbrush_mesh::geometry::Rect;
@@ -137,6 +137,22 @@ pub fn places_in_degrees(saved: &SavedSettings, settings: &Settings) -> Option<S
          degrees."
             .to_owned()
     })
+}
+
+/// Returns notes on what is asked of the boundary of a mesh that does not have it.
+pub fn idle_cleaning(saved: &SavedDomain, settings: &Settings) -> impl Iterator<Item = String> {
+    let is_on_outline =
+        settings.is_fitted() && matches!(settings.boundary, BoundaryTreatment::OnOutline { .. });
+    let improves = saved.improve_boundary == Some(true) && !is_on_outline;
+    let keeps = saved.keep_pinches == Some(true) && !settings.is_fitted();
+    let improves = improves.then_some(
+        "`improve_boundary` changes nothing: the mesh has no nodes on an outline. It has them in a domain of polygons or by a \
+         formula, with the boundary \"outline\".",
+    );
+    let keeps = keeps.then_some(
+        "`keep_pinches` changes nothing: the mesh is not fitted to an outline, and all of it stays.",
+    );
+    improves.into_iter().chain(keeps).map(str::to_owned)
 }
 
 /// Returns a note where a region on the Earth has no open boundary.
