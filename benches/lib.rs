@@ -4,6 +4,7 @@ pub mod diamond;
 pub mod documents;
 pub mod field;
 pub mod memory;
+pub mod numbering;
 pub mod resident;
 pub mod risks;
 pub mod scene;

@@ -12,7 +12,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::documents::{SIDE, diameter, layered, painted};
+use meshbrush_benches::documents::{SIDE, diameter, lake_document, layered, painted};
+use meshbrush_benches::numbering::Numberings;
 use meshbrush_benches::scene::{Scene, Times, figure_eight, move_threat, show_threats};
 use meshbrush_benches::window::{BRUSH, Pool, median_ms, pools};
 use meshbrush_benches::{diamond, field, memory, resident};
@@ -35,6 +36,7 @@ fn main() {
     large_edits(&mut page, &pools, is_short);
     more_cores(&mut page, &pools, is_short);
     if !is_short {
+        numbers_in_files(&mut page);
         memory_of_cases(&mut page);
     }
     print!("{page}");
@@ -392,6 +394,26 @@ fn scratch_and_shown(document: Document) -> (usize, f64, f64) {
 }
 
 /// What meshes take of the memory of a process.
+/// The numbers that files get: what they cost, and what they are worth to a solver.
+fn numbers_in_files(page: &mut String) {
+    *page += "## Numbers of nodes and triangles in files\n\nMilliseconds of a product with the matrix of linear elements on one \
+        thread, by the numbers of the mesh as it was made and by those of files, along the Sierpiński curve; and of the \
+        numbering.\n\n";
+    *page += "| document | nodes | as made | in files | numbering |\n|---|---:|---:|---:|---:|\n";
+    let documents = [
+        ("eight layers", layered(0.0008, None)),
+        ("nodes on an outline of 200,000 corners", lake_document()),
+    ];
+    for (name, document) in documents {
+        let Numberings { nodes, products: [as_made, in_files], numbering } = Numberings::of(document);
+        write_line(
+            page,
+            format_args!("| {name} | {nodes} | {as_made:.1} | {in_files:.1} | {numbering:.0} |"),
+        );
+    }
+    *page += "\n";
+}
+
 fn memory_of_cases(page: &mut String) {
     *page += "## Memory\n\nBytes for each triangle of what belongs to the mesh, in a process of its own: once everything is \
         done, and the most while it is made. The pixels of documents are counted before, and not here.\n\n";

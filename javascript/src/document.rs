@@ -126,7 +126,7 @@ impl Core {
         if derived.patch().leaves_nothing_of(mesh) {
             return Err(CoarseError::EmptyDomain { spacing: mesh.lattice().spacing() }.to_string());
         }
-        let extract = derived.extract(mesh).into_owned();
+        let extract = derived.extract(mesh).along_curve();
         let patch = derived.patch();
         let patched = (!patch.is_empty()).then(|| PatchedLocator::new(mesh, patch, &extract));
         Ok(Derived { mesh: derived, extract, patched })

@@ -37,8 +37,8 @@ pub struct Shared {
     pub finished: FinishedMesh,
     /// The name of the document.
     pub name: String,
-    /// The mesh as files have it, where it is not the whole mesh.
-    extract: OnceLock<Option<Extract<'static>>>,
+    /// The mesh as files have it.
+    extract: OnceLock<Extract<'static>>,
     nodes: OnceLock<Vec<f64>>,
     triangles: OnceLock<Vec<u32>>,
     levels: OnceLock<Vec<u8>>,
@@ -66,15 +66,7 @@ impl Shared {
 
     /// Calls `read` with the mesh as files have it.
     pub fn with_extract<T>(&self, read: impl FnOnce(&Extract<'_>) -> T) -> T {
-        let kept = self.extract.get_or_init(|| {
-            let finished = &self.finished;
-            let is_whole = finished.derived.patch().is_empty() && finished.mesh().outside_count() == 0;
-            (!is_whole).then(|| finished.extract().into_owned())
-        });
-        match kept {
-            Some(extract) => read(extract),
-            None => read(&self.finished.extract()),
-        }
+        read(self.extract.get_or_init(|| self.finished.extract()))
     }
 
     pub fn counts(&self) -> [usize; 2] {

@@ -100,7 +100,8 @@ fn every_ending_is_written_and_the_files_agree() {
         folder.read("named.csv").lines().next().unwrap().ends_with("depth1,depth2,depth3,two1,two2,two3")
     );
     assert!(folder.read("m.ele").starts_with("9560 3 1\n"));
-    assert!(folder.read("m.NODE").starts_with("4821 2 2 1\n1 -10 -10 20 100 1\n"));
+    let nodes = folder.read("m.NODE");
+    assert!(nodes.starts_with("4821 2 2 1\n1 ") && nodes.contains(" -10 -10 20 100 1\n"));
     assert!(folder.read("m.msh").contains("$Nodes\n1 4821 1 4821\n"));
     assert_eq!(folder.read("m.obj").lines().filter(|l| l.starts_with("f ")).count(), 9560);
     assert!(folder.read("m.svg").contains("<title>9560 triangles, 4821 nodes</title>"));
@@ -879,7 +880,7 @@ fn a_name_chooses_among_the_formats_of_an_ending() {
     assert_eq!(start("ww3.msh"), "$MeshFormat 2 0 8");
     assert_eq!(start("other.txt"), "$MeshFormat 2 0 8");
     assert!(start("sea.2dm").starts_with("MESH2D"), "its ending says another format");
-    assert!(folder.read("ww3.msh").contains("\n1 0 0 9\n"), "the depth");
+    assert!(folder.read("ww3.msh").contains(" 0 0 9\n"), "the depth");
     folder.run("mesh --spacing 0.5 -o usual.msh -o older.msh2");
     assert_eq!(start("usual.msh"), "$MeshFormat 4.1 0 8");
     assert_eq!(start("older.msh2"), "$MeshFormat 2.2 0 8");
@@ -887,7 +888,9 @@ fn a_name_chooses_among_the_formats_of_an_ending() {
     let without_origin = |name: &str| folder.read(name).split("$Comments").next().unwrap().to_owned();
     assert_eq!(without_origin("named.msh"), without_origin("older.msh2"));
     let ran = folder.run("mesh --spacing 0.5 --format fvcom -o bay_grd.dat");
-    assert_eq!((ran.status, start("bay_obc.dat").as_str()), (0, "OBC Node Number = 8 1 1 1"), "{}", ran.err);
+    // The first open node, its number in the mesh, and its type.
+    assert!(ran.status == 0 && start("bay_obc.dat").starts_with("OBC Node Number = 8 1 "), "{}", ran.err);
+    assert!(start("bay_obc.dat").ends_with(" 1"));
     assert!(ran.err.contains("wrote bay_grd.dat") && ran.err.contains("wrote bay_dep.dat"), "{}", ran.err);
     assert_fails(&folder, "mesh -o a.vtu --format doc", 2, "--format doc: use one of vtu msh msh22 obj");
     let apart = "mesh --domain 0,0,4,4 --spacing 1 --inside 'max(x,y) <= 2 or min(x,y) >= 2' --boundary report -o a.14";
@@ -902,6 +905,15 @@ fn options_that_change_nothing_are_named() {
     for (arguments, note) in [
         ("mesh --transfer-shape 2", "--transfer-shape changes nothing without --risk"),
         ("mesh --boundary report", "--boundary changes nothing without --region"),
+        (
+            "mesh --improve-boundary",
+            "`improve_boundary` changes nothing: the mesh has no nodes on an outline",
+        ),
+        (
+            "mesh --inside x+y<1 --boundary report --improve-boundary",
+            "`improve_boundary` changes nothing: the mesh",
+        ),
+        ("mesh --keep-pinches", "`keep_pinches` changes nothing: the mesh is not fitted"),
         ("mesh --quantity x", "--quantity changes nothing: no file with data"),
         ("mesh --quantity x -o m.svg", "--quantity changes nothing: no file with data"),
         ("mesh --light -o m.vtu", "The options on pictures change nothing"),

@@ -105,8 +105,13 @@ impl FinishedMesh {
         &self.built.mesh
     }
 
-    /// Returns the mesh as files get it.
-    pub fn extract(&self) -> Extract<'_> {
+    /// Returns the mesh as files get it, numbered along the curve.
+    pub fn extract(&self) -> Extract<'static> {
+        self.extract_as_made().along_curve()
+    }
+
+    /// [`Self::extract`] with the numbers of the mesh: for where no number is told.
+    pub fn extract_as_made(&self) -> Extract<'_> {
         self.derived.extract(self.mesh())
     }
 

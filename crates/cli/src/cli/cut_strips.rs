@@ -102,7 +102,7 @@ fn cut_strips(
         let finished = build(input, terminal)?;
         // What is said about the files was said by now.
         input.is_quiet = true;
-        if !cutting.look(&finished.extract(), finished.domain(), finished.marks()) {
+        if !cutting.look(&finished.extract_as_made(), finished.domain(), finished.marks()) {
             let summary = CutSummary::new(solver, &cutting, &input.settings.domain.cut_off);
             return Ok((finished, summary));
         }

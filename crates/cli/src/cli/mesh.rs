@@ -44,14 +44,14 @@ pub fn run(
     input.check_depth_for(files.iter().find_map(RequestedFiles::of_depth))?;
     let named = [(typed.cut_strips_for, "--cut-strips-for"), (typed.repair_for, "--repair-for")];
     let (finished, suited) = build_suited(&mut input, named, terminal)?;
-    let extract = finished.extract();
     let writes = files.iter().any(|files| !files.outputs.is_empty());
+    let wants_details = typed.json || writes;
+    let extract = if writes { finished.extract() } else { finished.extract_as_made() };
     let coordinates = coordinates_in_files(typed, &files, &finished);
     let violations = match typed.checks {
         true => Some(report_violations(&finished, &extract, finished.max_level(), terminal)?),
         false => None,
     };
-    let wants_details = typed.json || writes;
     let node_data = files.iter().any(RequestedFiles::wants_node_data);
     let given_depth = files.iter().find_map(RequestedFiles::depth);
     let depth_changes = files.iter().find_map(RequestedFiles::depth_changes).unwrap_or_default();

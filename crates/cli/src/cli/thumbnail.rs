@@ -38,7 +38,7 @@ pub fn write(typed: &ThumbnailArguments, terminal: &mut Terminal) -> Result<(), 
     check_place(&typed.output, &input.files())?;
     let files = RequestedFiles::of_options(&mesh)?;
     let finished = build(&input, terminal)?;
-    let extract = finished.extract();
+    let extract = finished.extract_as_made();
     let picture = files.picture_of(&finished, &extract)?;
     let mut bytes = Vec::new();
     let written = png::write(&mut bytes, picture.size, &picture.rgba).and_then(|()| {

@@ -89,8 +89,7 @@ impl LocatedIn<'_> {
 /// Writes the table of points in the mesh of a document, as `meshbrush locate --project` does for the saved
 /// document.
 ///
-/// The mesh is made from scratch, as the command line makes it: edits in place give the same triangles other
-/// numbers.
+/// The mesh is made from scratch, as the command line makes it. Its numbers are those of files.
 ///
 /// # Errors
 /// Fails when the mesh cannot be made, when the work was cancelled, and with the errors of `out`.
@@ -112,7 +111,7 @@ pub fn write_of_document(
     let BuiltMesh { domain, field, rule, mesh, .. } = builder.finish();
     let targets = EdgeTargets::by_rule(rule, &field, paint);
     let derived = DerivedMesh::new(&mesh, &domain, targets, &cleaning);
-    let extract = derived.extract(&mesh);
+    let extract = derived.extract(&mesh).along_curve();
     let value_at = |node: DVec2| field.target_by_rule(rule, paint, node);
     LocatedIn { mesh: &mesh, patch: derived.patch(), extract: &extract, value_at: &value_at }
         .write(points, out)

@@ -219,7 +219,7 @@ impl MeshExport {
         let targets = EdgeTargets::by_rule(self.settings.rule, &self.field, &self.paint);
         let cleaning = self.settings.derived_cleaning();
         let derived = DerivedMesh::new(&self.mesh, &self.domain, targets, &cleaning);
-        let extract = derived.extract(&self.mesh).into_owned();
+        let extract = derived.extract(&self.mesh).along_curve();
         let lines = LineEdges::all(derived.line_fits(), &self.settings.lines, &extract);
         let fits = self.settings.lines.iter().zip(derived.line_fits());
         let weirs = fits.filter(|(line, _)| line.weir().is_some());
