@@ -1,7 +1,7 @@
 """Files of coastal solvers, read back by large public packages: MIKE IO (.mesh), xugrid (UGRID), Gmsh (2.2) and adcircpy
-(fort.14); and by the parser of pyschism (hgrid.gr3, hgrid.ll). A small sea in metres has every type of boundary, and the
-Celtic Sea of the example has depths, in degrees. Nodes, triangles, depths, and each edge of the boundary exactly once, in the
-piece that has it.
+(fort.14); by the parser of pyschism (hgrid.gr3, hgrid.ll); and by HYDROLIB-core (thin dams). A small sea in metres has every
+type of boundary, and the Celtic Sea of the example has depths, in degrees. Nodes, triangles, depths, each edge of the boundary
+exactly once, in the piece that has it, and weirs.
 
 Called by tests/public_readers, which installs the packages: public_readers.py PROGRAM.
 """
@@ -24,6 +24,7 @@ import solver_readers
 import xarray
 import xugrid
 from adcircpy.mesh.fort14 import Fort14
+from hydrolib.core.dflowfm import PolyFile
 
 ENDINGS = ["14", "gr3", "nc", "mesh", "ww3"]
 # MIKE's code of a node on land.
@@ -165,9 +166,67 @@ def celtic_sea(program, folder):
     recipe = pathlib.Path(__file__).resolve().parent.parent / "assets" / "celtic_sea.toml"
     outputs = [word for ending in ["vtu", "ll", *ENDINGS] for word in ("-o", str(folder / f"celtic_sea.{ending}"))]
     ran = subprocess.run(
-        [program, "mesh", str(recipe), "--json", *outputs], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+        [program, "mesh", str(recipe), "--json", "--cells", "triangles", *outputs], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
     )
     return meshio.read(folder / "celtic_sea.vtu"), json.loads(ran.stdout)["boundary"]
+
+
+WEIRS = """
+[domain]
+bounds = [0, 0, 1000, 1000]
+[mesh]
+spacing = 100
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "60"
+[[line]]
+points = [[200, 300], [550, 400], [700, 750]]
+name = "dam"
+type = "weir"
+crest = 2.5
+[[line]]
+points = [[150, 800], [450, 700]]
+name = "groyne"
+"""
+
+
+def sides(points, triangles, node, line):
+    """Returns on which sides of a line the triangles at a node have their centroids."""
+    offsets = points[triangles[(triangles == node).any(axis=1)]].mean(axis=1) - points[node]
+    along = np.diff(line, axis=0)
+    # The segment that the node is on.
+    segment = np.argmin([abs(np.cross(d, points[node] - a)) / np.hypot(*d) for a, d in zip(line, along)])
+    return set(np.sign(np.cross(along[segment], offsets)))
+
+
+def check_weirs(program, folder):
+    """A weir in fort.14 by adcircpy, and thin dams in a .pli by HYDROLIB-core, beside the lines of the recipe."""
+    (folder / "weirs.toml").write_text(WEIRS)
+    subprocess.run(
+        [program, "mesh", "weirs.toml", "--quantity", "depth=10", "-o", "weirs.14", "-o", "weirs.nc"],
+        check=True, cwd=folder, stderr=subprocess.DEVNULL,
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        mesh = Fort14.open(folder / "weirs.14", crs="EPSG:32630")
+    points = mesh.nodes[["x", "y"]].to_numpy()
+    triangles = mesh.elements.elements.filter(like="node_").dropna(axis=1).to_numpy().astype(int) - 1
+    [weir] = mesh._boundaries.to_dict()["24"]
+    pairs = np.array(weir["node_id"]).astype(int) - 1
+    assert np.array_equal(points[pairs[:, 0]], points[pairs[:, 1]]), "the nodes of a pair have one place"
+    assert set(weir["barrier_height"]) == {2.5} and len(pairs) > 10
+    dam = np.array([[200, 300], [550, 400], [700, 750]])
+    corner = {tuple(at) for at in dam[1:-1]}
+    for front, back in pairs[[tuple(at) not in corner for at in points[pairs[:, 0]]]]:
+        # Water flows from the front on the left to the back on the right.
+        assert sides(points, triangles, front, dam) == {1} and sides(points, triangles, back, dam) == {-1}, "sides"
+    dams = {dam.metadata.name: np.array([[p.x, p.y] for p in dam.points]) for dam in PolyFile(folder / "weirs_thd.pli").objects}
+    assert dams.keys() == {"dam", "groyne"}
+    # The ends of a weir inside the domain are no pairs.
+    assert np.abs(dams["dam"][1:-1] - points[pairs[:, 0]]).max() < 1e-9, "the nodes of the weir along the dam"
+    assert np.array_equal(dams["groyne"][[0, -1]], [[150, 800], [450, 700]])
+    print(f"weirs: {len(pairs)} pairs and {len(dams)} thin dams: read back")
 
 
 def main():
@@ -180,6 +239,7 @@ def main():
         expected, pieces = celtic_sea(program, folder)
         expected.unit, expected.length_of = "degrees", ground_length
         check_all(folder, "celtic_sea", expected, pieces)
+        check_weirs(program, folder)
 
 
 if __name__ == "__main__":
