@@ -12,7 +12,7 @@ use super::{
     Planner, Planning, Walls, Waypoint, in_plane,
 };
 use crate::domain::Domain;
-use crate::geometry::{Rect, nearest_on_segment};
+use crate::geometry::{Rect, corners_that_stay};
 use crate::layers::DepthField;
 use crate::mesh::Progress;
 use crate::text::{Number, rounded};
@@ -225,25 +225,13 @@ impl DeepestWay {
         places.find(|&at| is_land(&self.depths, at))
     }
 
-    /// Returns a way with fewer points, none of which is farther than a tolerance from those that are left
-    /// out (Douglas and Peucker's method), where it stays in water and crosses no wall.
+    /// Returns a way with fewer points, at most a tolerance from those that are left out, where it stays in
+    /// water and crosses no wall.
     fn simplified(&self, points: &[DVec2], tolerance: f64, walls: &Walls) -> Vec<DVec2> {
-        let last = points.len() - 1;
-        let mut stays = vec![false; points.len()];
-        (stays[0], stays[last]) = (true, true);
-        let mut parts = vec![[0, last]];
-        while let Some([from, to]) = parts.pop() {
-            let ends = [points[from], points[to]];
-            let distance = |at: usize| nearest_on_segment(points[at], ends).distance(points[at]);
-            let farthest = (from + 1..to).max_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-            let Some(farthest) = farthest else { continue };
-            let is_near = distance(farthest) <= tolerance;
-            if is_near && walls.admit(ends[0], ends[1]) && self.land_between(ends[0], ends[1]).is_none() {
-                continue;
-            }
-            stays[farthest] = true;
-            parts.extend([[from, farthest], [farthest, to]]);
-        }
+        let stays = corners_that_stay(points, tolerance, |ends| {
+            let [from, to] = ends.map(|n| points[n]);
+            walls.admit(from, to) && self.land_between(from, to).is_none()
+        });
         points.iter().zip(stays).filter(|(_, stays)| *stays).map(|(&at, _)| at).collect()
     }
 }

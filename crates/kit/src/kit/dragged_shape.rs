@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::{CLICK_SLACK, DrawingCommands, Gesture, Pointer, Press, marks};
 use crate::kit::command::{Command, EditCommand};
 use meshbrush_core::domain::{CutShape, Ring, corners};
-use meshbrush_mesh::geometry::Rect as WorldRect;
+use meshbrush_mesh::geometry::{Rect as WorldRect, corners_that_stay};
 
 /// What a drag draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,27 +132,11 @@ impl ShapeDrag {
     }
 }
 
-/// Returns a line without the corners that are at most a distance from it (Douglas and Peucker).
+/// Returns a line without the corners that are at most a distance from it.
 fn thinned(line: &[Pos2], most: f32) -> Vec<Pos2> {
-    let last = line.len() - 1;
-    let mut stays = vec![false; line.len()];
-    (stays[0], stays[last]) = (true, true);
-    let mut parts = vec![[0, last]];
-    while let Some([from, to]) = parts.pop() {
-        let distance = |at: &usize| distance_from_segment(line[*at], [line[from], line[to]]);
-        let farthest = (from + 1..to).max_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(farthest) = farthest.filter(|at| distance(at) > most) {
-            stays[farthest] = true;
-            parts.extend([[from, farthest], [farthest, to]]);
-        }
-    }
+    let points: Vec<DVec2> = line.iter().map(|at| DVec2::new(at.x.into(), at.y.into())).collect();
+    let stays = corners_that_stay(&points, most.into(), |_| true);
     line.iter().zip(stays).filter(|(_, stays)| *stays).map(|(&at, _)| at).collect()
-}
-
-fn distance_from_segment(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
-    let (along, way) = (to - from, at - from);
-    let share = if along == Vec2::ZERO { 0.0 } else { (way.dot(along) / along.length_sq()).clamp(0.0, 1.0) };
-    at.distance(from + share * along)
 }
 
 fn circle(middle: DVec2, radius: f64) -> Ring {

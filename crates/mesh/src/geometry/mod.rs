@@ -14,6 +14,7 @@ mod predicates;
 mod rect;
 mod ring;
 mod segment;
+mod thinning;
 mod z_order;
 
 pub use best_first::BestFirst;
@@ -28,4 +29,5 @@ pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line, side_of_p
 pub use rect::Rect;
 pub use ring::{is_around, signed_area};
 pub use segment::{nearest_on_segment, nearest_share};
+pub use thinning::corners_that_stay;
 pub use z_order::{interleaved, z_order};

@@ -3,97 +3,44 @@
 //! Every corner of a line becomes a node, and a mesh cannot have more nodes than its triangles resolve. A
 //! line that a program has divided into short pieces needs no node at most of its corners.
 //!
-//! This is the method of Douglas and Peucker with a tolerance of one lattice step, so that the line stays
-//! where it is as far as the mesh can tell. A run of corners is divided at *all* corners that are farthest
-//! from its chord, and a closed line begins at places that do not depend on its order of corners. So the
+//! Those within one lattice step of a straight part are left out, so that the line stays where it is as far
+//! as the mesh can tell. A closed line begins at a place that does not depend on its order of corners. So the
 //! result is the same in both directions.
 
 use glam::DVec2;
 
 use super::{Line, LineKind};
-use crate::geometry::{Lattice, nearest_on_segment};
+use crate::geometry::{Lattice, corners_that_stay};
 
 /// The largest distance of a corner that is left out from the straight part, in lattice steps.
 const TOLERANCE: f64 = 1.0;
-/// How often a run is divided at most. Beyond that all of its corners stay: a spiral of a million corners
-/// could otherwise take a time in proportion to their square.
-const MOST_DIVISIONS: u32 = 64;
 
 /// Returns a line without the corners that lie on straight parts of it, within a lattice step.
 pub(super) fn without_straight_corners(line: &Line, lattice: &Lattice) -> Line {
     let in_steps: Vec<DVec2> = line.points.iter().map(|&p| p / lattice.step()).collect();
-    let mut stays = vec![true; in_steps.len()];
-    if line.closed && in_steps.len() > 2 && in_steps.iter().all(|p| p.is_finite()) {
-        leave_out_of_ring(&in_steps, &mut stays);
-    } else {
-        leave_out_of_runs(&in_steps, &mut stays);
-    }
+    let stays = match line.closed && in_steps.len() > 2 && in_steps.iter().all(|p| p.is_finite()) {
+        true => corners_of_ring(&in_steps),
+        // A corner that is not a finite number ends a part.
+        false => in_steps.chunk_by(|a, b| a.is_finite() && b.is_finite()).flat_map(corners_of_part).collect(),
+    };
     let points = line.points.iter().zip(stays).filter_map(|(&p, stays)| stays.then_some(p)).collect();
     Line { name: line.name.clone(), points, closed: line.closed, kind: LineKind::default() }
 }
 
-/// Leaves corners out between those that are not finite numbers.
-fn leave_out_of_runs(points: &[DVec2], stays: &mut [bool]) {
-    let mut first = 0;
-    for run in points.chunk_by(|a, b| a.is_finite() && b.is_finite()) {
-        let end = first + run.len();
-        CornerRun { points, stays }.leave_out(first, end - 1, 0);
-        first = end;
-    }
+fn corners_of_part(points: &[DVec2]) -> Vec<bool> {
+    corners_that_stay(points, TOLERANCE, |_| true)
 }
 
 /// A ring begins at its lowest corner, and is divided at the ones that are farthest from it.
-fn leave_out_of_ring(points: &[DVec2], stays: &mut [bool]) {
+fn corners_of_ring(points: &[DVec2]) -> Vec<bool> {
     let lowest = points.iter().copied().min_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let lowest = lowest.expect("a ring has corners");
     let begin = points.iter().position(|&p| p == lowest).expect("it is one of them");
-    let turned: Vec<DVec2> = (0..=points.len()).map(|n| points[(begin + n) % points.len()]).collect();
-    let mut turned_stays = vec![true; turned.len()];
-    let last = points.len();
-    let mut run = CornerRun { points: &turned, stays: &mut turned_stays };
-    run.leave_out(0, last, 0);
-    for (n, stays_there) in turned_stays.iter().take(last).enumerate() {
-        stays[(begin + n) % last] = *stays_there;
-    }
-}
-
-/// Corners in lattice steps, and whether each stays.
-struct CornerRun<'a> {
-    points: &'a [DVec2],
-    stays: &'a mut [bool],
-}
-
-impl CornerRun<'_> {
-    /// Leaves out the corners between two that stay, if all are near the chord; divides the run otherwise.
-    fn leave_out(&mut self, first: usize, last: usize, divisions: u32) {
-        if last < first + 2 || divisions == MOST_DIVISIONS {
-            return;
-        }
-        let ends = self.chord(first, last);
-        let farthest = (first + 1..last).map(|n| self.distance(n, ends)).fold(0.0, f64::max);
-        if farthest <= TOLERANCE {
-            return self.stays[first + 1..last].fill(false);
-        }
-        // All corners that are farthest from the chord stay.
-        let mut from = first;
-        for n in first + 1..last {
-            if self.distance(n, ends) == farthest {
-                self.leave_out(from, n, divisions + 1);
-                from = n;
-            }
-        }
-        self.leave_out(from, last, divisions + 1);
-    }
-
-    /// The ends of a chord, the lower one first: the same numbers in both directions.
-    fn chord(&self, first: usize, last: usize) -> [DVec2; 2] {
-        let [a, b] = [self.points[first], self.points[last]];
-        if [b.x, b.y] < [a.x, a.y] { [b, a] } else { [a, b] }
-    }
-
-    fn distance(&self, n: usize, ends: [DVec2; 2]) -> f64 {
-        self.points[n].distance(nearest_on_segment(self.points[n], ends))
-    }
+    let around: Vec<DVec2> = (0..=points.len()).map(|n| points[(begin + n) % points.len()]).collect();
+    let mut stays = corners_of_part(&around);
+    stays.pop();
+    stays.rotate_right(begin);
+    stays
 }
 
 #[cfg(test)]
@@ -103,7 +50,7 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::geometry::Rect;
+    use crate::geometry::{Rect, nearest_on_segment};
 
     fn lattice() -> Lattice {
         Lattice::covering(Rect::new(DVec2::ZERO, DVec2::ONE), 0.25, 1000).unwrap()
