@@ -111,8 +111,8 @@ pub use meshbrush_core::earth::{
 };
 #[doc(inline)]
 pub use meshbrush_core::outline::{
-    DerivedMesh, DerivedViolation, EdgeTargets, LineEdge, LineEdges, LineFit, LineProblem, OutlineFit,
-    OutlineFollower, SharedTargets, UnresolvedPlace, WeirEdges,
+    DerivedFollower, DerivedMesh, DerivedViolation, EdgeTargets, LineEdge, LineEdges, LineFit, LineProblem,
+    OutlineFit, OutlineFollower, SharedTargets, UnresolvedPlace, WeirEdges,
 };
 #[doc(inline)]
 pub use meshbrush_io::io::{

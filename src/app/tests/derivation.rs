@@ -10,7 +10,7 @@ use super::{Window, key, send, show, wait_until, window};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use meshbrush_core::document::{Document, DrawnShape, Follower, Settings};
-use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_core::domain::{CutShape, Domain, Line, LineKind};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_kit::kit::command::{BrushCommand, Command, EditCommand, LayerCommand};
 use meshbrush_mesh::geometry::LatticePoint;
@@ -58,7 +58,9 @@ fn whole_from_scratch(window: &Window) -> Option<Vec<Corners>> {
     let follower = session.follower();
     session.derivation().shows_whole_coast(follower).then_some(())?;
     let targets = follower.edge_targets(session.document().paint());
-    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &Cleaning::NONE);
+    let improves_boundary = follower.settings().derived_cleaning().improves_boundary;
+    let cleaning = Cleaning { improves_boundary, ..Cleaning::NONE };
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), targets, &cleaning);
     let extract = derived.extract(follower.mesh());
     let cells = extract.cells().map(|cell| cell.corners.map(|n| extract.node(NodeId::from_index(n))));
     Some(sorted(cells.map(corners).collect()))
@@ -74,6 +76,22 @@ fn lake() -> Settings {
     let mut lake =
         Settings::for_domain("lake".into(), Domain::of_polygons(&[vec![ring(1.0), island]]).unwrap());
     lake.transfer = lake.transfer.with_smallest(2.0 * lake.transfer.h_min);
+    lake
+}
+
+/// Returns the lake with better triangles along its outline, a line across it and one around a place.
+fn lake_with_lines() -> Settings {
+    let line = |name: &str, points: Vec<DVec2>, closed| Line {
+        name: name.into(),
+        points,
+        closed,
+        kind: LineKind::Edges,
+    };
+    let around = ring(0.2).into_iter().step_by(8).map(|p| p - dvec2(0.4, 0.5)).collect();
+    let across = vec![dvec2(-1.1, 0.1), dvec2(0.0, 0.05), dvec2(0.2, 0.6), dvec2(0.5, 1.0)];
+    let mut lake = lake();
+    lake.lines = vec![line("across", across, false), line("around", around, true)].into();
+    lake.cleaning.improves_boundary = true;
     lake
 }
 
@@ -100,20 +118,34 @@ fn draw_on_a_region(window: &mut Window, path: Vec<DVec2>, random: &mut Rng) {
 #[test]
 fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
     let mut window = window();
-    send(&mut window, show(lake()));
+    let (some_retired, compared) = edited(&mut window, lake(), 40);
+    assert!(some_retired > 0, "no stroke changed a replaced triangle before the mesh was derived again");
+    assert!(compared > 30, "{compared} frames of strokes were compared");
+}
+
+#[test]
+fn what_is_drawn_with_lines_and_better_triangles_is_derived_from_scratch() {
+    let (_, compared) = edited(&mut window(), lake_with_lines(), 30);
+    assert!(compared > 20, "{compared} frames of strokes were compared");
+}
+
+/// Edits a document, and compares what is drawn. Returns the number of frames of strokes with retired pieces,
+/// and of those that were compared.
+fn edited(window: &mut Window, settings: Settings, edits: usize) -> (usize, usize) {
+    send(window, show(settings));
     let mut random = Rng::with_seed(5);
     let (mut some_retired, mut compared) = (0, 0);
-    for _ in 0..40 {
+    for _ in 0..edits {
         let mut point = || 2.2 * dvec2(random.f64() - 0.5, random.f64() - 0.5);
         let (a, b) = (point(), point());
         match random.u32(..8) {
             0 => {
                 let cut_shape = CutShape::Stroke { path: vec![a], radius: 0.05 + 0.1 * random.f64() };
-                send(&mut window, Command::from(DomainCommand::Reshape(cut_shape, random.bool())));
-                send(&mut window, Command::from(EditCommand::EndGesture));
+                send(window, Command::from(DomainCommand::Reshape(cut_shape, random.bool())));
+                send(window, Command::from(EditCommand::EndGesture));
             }
-            1 => key(&mut window, Modifiers::COMMAND, Key::Z),
-            2 | 3 => draw_on_a_region(&mut window, vec![a, b], &mut random),
+            1 => key(window, Modifiers::COMMAND, Key::Z),
+            2 | 3 => draw_on_a_region(window, vec![a, b], &mut random),
             _ => {
                 window.state_mut().send(Command::from(BrushCommand::BeginStroke(a)));
                 for step in 0..=4 {
@@ -123,8 +155,8 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
                     window.step();
                     let pieces = window.state().session().derivation().pieces();
                     some_retired += usize::from(pieces.triangles().iter().any(|piece| piece.is_outside()));
-                    if let Some(from_scratch) = whole_from_scratch(&window) {
-                        assert!(drawn(&window) == from_scratch, "the coast is not in step in a stroke");
+                    if let Some(from_scratch) = whole_from_scratch(window) {
+                        assert!(drawn(window) == from_scratch, "the coast is not in step in a stroke");
                         compared += 1;
                     }
                 }
@@ -134,17 +166,16 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
         if random.bool() {
             continue;
         }
-        wait_until(&mut window, |window| {
+        wait_until(window, |window| {
             let session = window.state().session();
             session.derived().is_some() && session.follower().is_in_step(session.document())
         });
-        let drawn = drawn(&window);
+        let drawn = drawn(window);
         assert!(drawn == from_scratch(window.state().session().document()));
         let derived = window.state().session().derived().unwrap();
         assert_eq!(derived.level_counts.iter().sum::<usize>(), drawn.len());
     }
-    assert!(some_retired > 0, "no stroke changed a replaced triangle before the mesh was derived again");
-    assert!(compared > 30, "{compared} frames of strokes were compared");
+    (some_retired, compared)
 }
 
 #[test]

@@ -155,7 +155,7 @@ impl Shown {
 
     /// Lets the mesh be updated where targets may have changed.
     fn add_area(&mut self, area: ChangedArea) {
-        if self.domain.region_on_outline().is_some() {
+        if self.domain.region_on_outline().is_some() || self.domain.lines().is_some() {
             self.retargeted.push(area.rect);
         }
         self.updater.add_area(area);

@@ -1,6 +1,7 @@
 use super::OutlineFollower;
 use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
+use super::islands::DerivedIslands;
 use super::lengths::EdgeTargets;
 use super::lines::{LineFit, fit_lines};
 use super::quality::with_better_boundary;
@@ -53,13 +54,13 @@ impl DerivedMesh {
         if changes.is_none() {
             watch(DerivationAction::RemoveByCentroid, &MeshPatch::default);
         }
-        let derived = Self::cleaned(mesh, domain, changes, targets, cleaning);
+        let (derived, _) = Self::cleaned(mesh, domain, changes, targets, cleaning);
         watch(DerivationAction::Clean, &|| derived.patch.clone());
         derived
     }
 
     /// Returns the mesh that [`Self::new`] derives, from nodes on the outline that were kept in step with the
-    /// mesh. Edges along lines are made anew.
+    /// mesh. A better boundary and edges along lines are made anew.
     pub fn of_follower(
         mesh: &Mesh,
         domain: &DomainOnLattice,
@@ -67,27 +68,31 @@ impl DerivedMesh {
         targets: Option<EdgeTargets>,
         cleaning: &Cleaning,
     ) -> Self {
-        Self::cleaned(mesh, domain, Some(outline.changes(mesh)), targets, cleaning)
+        Self::cleaned(mesh, domain, Some(outline.changes(mesh)), targets, cleaning).0
     }
 
+    /// Returns the mesh with these changes for the nodes on its outline, and the islands that were changed
+    /// after these.
     pub(super) fn cleaned(
         mesh: &Mesh,
         domain: &DomainOnLattice,
         changes: Option<OutlineChanges>,
         targets: Option<EdgeTargets>,
         cleaning: &Cleaning,
-    ) -> Self {
+    ) -> (Self, DerivedIslands) {
+        let mut islands = DerivedIslands::default();
         let (mut patch, fit, mut corner_limit) = match changes {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
             None => (MeshPatch::default(), None, 0.0),
         };
         if let Some(region) = domain.region_on_outline().filter(|_| cleaning.improves_boundary) {
-            patch = with_better_boundary(mesh, &patch, region, targets);
+            let (better, changed) = with_better_boundary(mesh, &patch, region, targets);
+            (patch, islands.better) = (better, Some(changed));
         }
         let mut line_fits = Vec::new();
         if let Some(lines) = domain.lines() {
             let fitted = fit_lines(mesh, &patch, lines, domain.region_on_outline(), targets);
-            (patch, line_fits) = (fitted.patch, fitted.fits);
+            (patch, line_fits, islands.lines) = (fitted.patch, fitted.fits, Some(fitted.islands));
             corner_limit = corner_limit.max(fitted.corner_limit);
         }
         let mut removed_triangles = Vec::new();
@@ -99,7 +104,9 @@ impl DerivedMesh {
             line_fits.iter_mut().for_each(|fit| fit.keep_edges_of(&extract));
         }
         let allows_pinches = fit.is_none() && cleaning.keeps_pinches;
-        Self { patch, fit, line_fits, removed, removed_triangles, allows_pinches, corner_limit }
+        let derived =
+            Self { patch, fit, line_fits, removed, removed_triangles, allows_pinches, corner_limit };
+        (derived, islands)
     }
 
     /// Returns the mesh with the changes, for files and summaries.

@@ -30,29 +30,12 @@ use super::follower_making::FollowerMaking;
 use super::lengths::EdgeTargets;
 use super::line::OutlineOnLattice;
 use super::numbers::{Numbers, Pages};
+use super::places::{PlaceKey, node_at, node_place, triangle_place};
 use super::window::{LOCAL_RINGS, Rings, SLACK, Window, expected};
 use super::writer::Writer;
 use crate::domain::{DomainOnLattice, RegionOnLattice};
 use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
 use crate::mesh::{Changes, DrawnPiece, Mesh, MeshPatch, NodeId, PatchTriangle, Replacement, TriangleId};
-
-/// A place on the lattice as one number: of a node, or three times the centroid of a triangle. No triangle
-/// has the same centroid as one of its ancestors.
-pub(super) type PlaceKey = u64;
-
-pub(super) fn node_place(point: LatticePoint) -> PlaceKey {
-    u64::from(point.x) << 32 | u64::from(point.y)
-}
-
-/// Returns the node of a place.
-fn node_at(place: PlaceKey) -> LatticePoint {
-    LatticePoint::new((place >> 32) as u32, place as u32)
-}
-
-pub(super) fn triangle_place(corners: [LatticePoint; 3]) -> PlaceKey {
-    let sum = |c: fn(&LatticePoint) -> u32| corners.iter().map(|p| u64::from(c(p))).sum::<u64>();
-    sum(|p| p.x) << 32 | sum(|p| p.y)
-}
 
 /// Returns whether the outline touches a triangle.
 fn touches(mesh: &Mesh, region: &RegionOnLattice, id: TriangleId) -> bool {
@@ -177,10 +160,8 @@ impl OutlineFollower {
         let domain = self.domain.clone();
         let Some(region) = domain.region_on_outline() else { return Some(Vec::new()) };
         let Entries { fresh, mut rewritten, mut stale } = self.follow_entries(mesh, changes);
-        let known =
-            |id: &TriangleId| mesh.corners(*id).iter().any(|&p| self.nodes.contains_key(&node_place(p)));
         let fresh = fresh.into_par_iter().with_min_len(GRAIN);
-        let relevant = fresh.filter(|id| known(id) || touches(mesh, region, *id));
+        let relevant = fresh.filter(|id| self.knows(mesh, *id) || touches(mesh, region, *id));
         let mut relevant: Vec<TriangleId> = relevant.collect();
         relevant.extend(self.retargeted(mesh, &changes.retargeted));
         if relevant.len() > most {
@@ -409,6 +390,18 @@ impl OutlineFollower {
                 .and_then(|kept| kept.pieces.as_ref())
                 .map(|pieces| pieces.iter().map(drawn).collect()),
         }
+    }
+
+    /// Returns the number of triangles that replace one of the mesh; `None` if it stays as it is.
+    pub(super) fn number_of_pieces(&self, id: TriangleId) -> Option<usize> {
+        let seat = self.seats.get(&(id.index() as u32))?;
+        Some(self.triangles[&seat.place].pieces.as_ref()?.len())
+    }
+
+    /// Returns whether a triangle of the mesh is kept, or has a node that is.
+    pub(super) fn knows(&self, mesh: &Mesh, id: TriangleId) -> bool {
+        self.seats.contains_key(&(id.index() as u32))
+            || mesh.corners(id).iter().any(|&p| self.nodes.contains_key(&node_place(p)))
     }
 
     /// Returns the domain whose outline it follows.

@@ -1,10 +1,11 @@
 //! Edges that are longer than their target.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use super::angles::Angles;
 use crate::field::RefinementRule;
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, LatticeRect};
 use crate::layers::{LevelCache, LevelCachePool, PaintLayers, SizeField};
 
 /// What the edges of a derived mesh are compared with: h̄ by the area rule, for the pixels of paint layers.
@@ -55,7 +56,12 @@ impl<'a> LengthRule<'a> {
 
     /// Returns the answers for one thread.
     pub(super) fn answers(&self) -> LengthAnswers<'_> {
-        LengthAnswers { rule: self, squares: None }
+        LengthAnswers { rule: self, squares: None, asked: None }
+    }
+
+    /// [`Self::answers`], which note where they were asked for.
+    pub(super) fn answers_noted<'b>(&'b self, asked: &'b AskedArea) -> LengthAnswers<'b> {
+        LengthAnswers { rule: self, squares: None, asked: Some(asked) }
     }
 
     pub(super) fn is_any(&self) -> bool {
@@ -73,10 +79,31 @@ impl<'a> LengthRule<'a> {
     }
 }
 
+/// The rectangle around all triangles that a rule was asked about: while no target changes in it, the
+/// answers stay.
+#[derive(Debug, Default)]
+pub(super) struct AskedArea(Cell<Option<LatticeRect>>);
+
+impl AskedArea {
+    /// Returns the rectangle; `None` if nothing was asked.
+    pub(super) fn rect(&self) -> Option<LatticeRect> {
+        self.0.get()
+    }
+
+    fn add(&self, corners: [LatticePoint; 3]) {
+        let (x, y) = (corners.map(|p| p.x), corners.map(|p| p.y));
+        let [x0, y0] = [x, y].map(|[a, b, c]| a.min(b).min(c));
+        let [x1, y1] = [x, y].map(|[a, b, c]| a.max(b).max(c));
+        let own = LatticeRect { min: LatticePoint::new(x0, y0), max: LatticePoint::new(x1, y1) };
+        self.0.set(Some(self.0.get().map_or(own, |area| area.union(&own))));
+    }
+}
+
 /// The answers of a [`LengthRule`] for one thread.
 pub(super) struct LengthAnswers<'a> {
     rule: &'a LengthRule<'a>,
     squares: Option<LevelCache>,
+    asked: Option<&'a AskedArea>,
 }
 
 impl Drop for LengthAnswers<'_> {
@@ -105,12 +132,14 @@ impl LengthAnswers<'_> {
 
     /// Returns whether a triangle of the mesh is larger than its target.
     pub(super) fn ask_for_more(&mut self, corners: [LatticePoint; 3], level: u32) -> bool {
-        let targets = self.rule.targets;
-        targets.is_some_and(|EdgeTargets { field, paint }| field.asks_for_more(paint, corners, level))
+        let Some(EdgeTargets { field, paint }) = self.rule.targets else { return false };
+        self.asked.iter().for_each(|asked| asked.add(corners));
+        field.asks_for_more(paint, corners, level)
     }
 
     fn is_below(&mut self, points: [LatticePoint; 3], length: f64) -> bool {
         let Some(EdgeTargets { field, paint }) = self.rule.targets else { return false };
+        self.asked.iter().for_each(|asked| asked.add(points));
         let squares = self.squares.get_or_insert_with(|| self.rule.known.take());
         field.is_below(squares, paint, points, length)
     }

@@ -19,7 +19,7 @@
 //!
 //! All threads work on a stage. A node is moved, and an edge flipped, by the state of its surroundings and by
 //! places on the lattice, so the result does not depend on the number of threads; and after an edit, only its
-//! surroundings are derived again ([`OutlineFollower`]).
+//! surroundings are derived again ([`OutlineFollower`], [`DerivedFollower`]).
 //!
 //! Bounds. The domain never touches itself in a node. In square cells every angle is at least 18.4° and at
 //! most 143.2°, except beside sharp corners of the outline: there it is at least 12°, or 0.8 times the angle
@@ -37,6 +37,7 @@
 mod angles;
 mod triangulation;
 mod numbers;
+mod places;
 mod band;
 mod snap;
 mod stencil;
@@ -58,6 +59,8 @@ mod window;
 mod follower;
 mod writer;
 mod follower_making;
+mod islands;
+mod derived_follower;
 mod derived;
 mod deriving;
 mod check;
@@ -65,6 +68,7 @@ mod check;
 pub use changes::OutlineFit;
 pub use check::DerivedViolation;
 pub use derived::DerivedMesh;
+pub use derived_follower::DerivedFollower;
 pub use deriving::MeshDerivation;
 pub use follower::OutlineFollower;
 pub use lengths::{EdgeTargets, SharedTargets};

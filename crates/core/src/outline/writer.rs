@@ -1,8 +1,9 @@
 //! Writes what is derived into what is kept of it.
 
 use super::changes::{FittedBand, PiecesByTriangle};
-use super::follower::{KeptNode, KeptPiece, KeptTriangle, OutlineFollower, Seat, node_place, triangle_place};
+use super::follower::{KeptNode, KeptPiece, KeptTriangle, OutlineFollower, Seat};
 use super::line::OutlineOnLattice;
+use super::places::{node_place, triangle_place};
 use super::triangulation::NONE;
 use crate::mesh::Mesh;
 

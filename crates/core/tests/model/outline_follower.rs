@@ -1,15 +1,17 @@
-//! Nodes on an outline that are kept in step with a mesh, against those derived from scratch.
+//! Nodes on an outline, better triangles along it and edges along lines that are kept in step with a mesh,
+//! against those derived from scratch.
 
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::{Layer, LayerKind, PaintLayers};
-use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFollower};
+use meshbrush_core::outline::{DerivedFollower, DerivedMesh, MeshDerivation};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
-use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::geometry::{LatticePoint, Rect};
 use meshbrush_mesh::mesh::{Changes, Cleaning, Mesh, PatchPieces, Progress, Triangle};
 
+use crate::lines::random::lines;
 use crate::random_coast::{place, random_coast};
 use crate::runs::runs;
 
@@ -27,6 +29,7 @@ fn triangles(mesh: &Mesh, derived: &DerivedMesh) -> Vec<[LatticePoint; 3]> {
 }
 
 /// What is drawn in place of the triangles of a mesh.
+#[derive(PartialEq)]
 struct Drawn {
     /// The corners of each triangle from the lowest one on, with its level, and whether the edges from each
     /// corner to the next are on the boundary.
@@ -62,25 +65,57 @@ fn pieces_of(mesh: &Mesh, derived: &DerivedMesh) -> PatchPieces {
     PatchPieces::new(mesh, derived.patch(), &derived.extract(mesh))
 }
 
-/// Returns the nodes on the outline of a mesh, and its pieces, derived in steps of random sizes.
+/// Returns what keeps a derived mesh in step, and its pieces, derived in steps of random sizes.
 fn derived_in_steps(
     follower: &Follower,
     paint: &PaintLayers,
     random: &mut Rng,
-) -> (OutlineFollower, PatchPieces) {
+) -> (DerivedFollower, PatchPieces) {
     let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
     let targets = follower.shared_targets(paint);
-    let mut derivation = MeshDerivation::new(mesh, domain, targets, Cleaning::NONE, true);
+    let mut derivation = MeshDerivation::new(mesh, domain, targets, cleaning_of(follower), true);
     while derivation.advance_by(random.usize(..100)) == Progress::More {}
     let pieces = pieces_of(follower.mesh(), &derivation.take_derived().unwrap());
     (derivation.take_follower().unwrap(), pieces)
 }
 
-/// A document with nodes on its outline.
+/// Returns the cleaning that keeps all parts of a mesh.
+fn cleaning_of(follower: &Follower) -> Cleaning {
+    let improves_boundary = follower.settings().derived_cleaning().improves_boundary;
+    Cleaning { improves_boundary, ..Cleaning::NONE }
+}
+
+/// What is derived from the mesh of a document.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Nodes on the outline of a random coast.
+    Coast,
+    /// And better triangles along it.
+    BetterCoast,
+    /// Lines on a random coast.
+    LinesOnCoast,
+    LinesOnBetterCoast,
+    /// Lines in a staircase of triangles along a random coast.
+    LinesInStairs,
+    /// Lines in a rectangle.
+    LinesInRectangle,
+}
+
+impl Kind {
+    fn has_lines(self) -> bool {
+        !matches!(self, Self::Coast | Self::BetterCoast)
+    }
+
+    fn is_better(self) -> bool {
+        matches!(self, Self::BetterCoast | Self::LinesOnBetterCoast)
+    }
+}
+
+/// A document whose derived mesh is kept in step.
 struct Scene {
     document: Document,
     follower: Follower,
-    outline: OutlineFollower,
+    derived: DerivedFollower,
     /// The pieces that are drawn, each in the place of a former one.
     pieces: PatchPieces,
     finest: f64,
@@ -88,17 +123,29 @@ struct Scene {
 }
 
 impl Scene {
-    /// Returns a random coast, in cells that are not square for every third number.
-    fn new(seed: u64) -> Self {
+    /// Returns a random scene, in cells that are not square for every third number.
+    fn new(seed: u64, kind: Kind) -> Self {
         let mut random = Rng::with_seed(seed);
         let stretch = if seed.is_multiple_of(3) { dvec2(1.0, 0.73 + 0.2 * random.f64()) } else { DVec2::ONE };
         let mut polygons = random_coast(&mut random);
         polygons.iter_mut().flatten().flatten().for_each(|p| *p *= stretch);
-        let domain = Domain::of_polygons(&polygons).unwrap();
+        let domain = match kind {
+            Kind::LinesInRectangle => Domain::rectangle(Rect::new(DVec2::ZERO, stretch)),
+            _ => Domain::of_polygons(&polygons).unwrap(),
+        };
         let size = domain.bounds.size().max_element();
         let diameter = size * 0.012 * 4f64.powf(random.f64());
         let mut settings = Settings::for_domain("coast".into(), domain);
-        settings.boundary = BoundaryTreatment::OnOutline { diameter };
+        settings.boundary = match kind {
+            Kind::LinesInStairs => BoundaryTreatment::Fitted { diameter },
+            _ => BoundaryTreatment::OnOutline { diameter },
+        };
+        settings.cleaning.improves_boundary = kind.is_better();
+        if kind.has_lines() {
+            let mut lines = lines(&mut random);
+            lines.iter_mut().flat_map(|line| &mut line.points).for_each(|p| *p *= stretch);
+            settings.lines = lines.into();
+        }
         // Edges that are too long, or none.
         let target = if seed.is_multiple_of(2) { (0.8 + random.f64()) * diameter } else { 0.2 * size };
         settings.layers = Layer::default_stack(LayerKind::constant(target));
@@ -107,8 +154,8 @@ impl Scene {
         let mut document = Document::new(settings, None).unwrap();
         let mut follower = Follower::new(&mut document).unwrap();
         follower.take_change();
-        let (outline, pieces) = derived_in_steps(&follower, document.paint(), &mut random);
-        Self { document, follower, outline, pieces, finest, name: format!("seed {seed}") }
+        let (derived, pieces) = derived_in_steps(&follower, document.paint(), &mut random);
+        Self { document, follower, derived, pieces, finest, name: format!("seed {seed}") }
     }
 
     /// Paints or erases a dab, mostly at the coast, or changes the layers or takes something back.
@@ -163,7 +210,7 @@ impl Scene {
                 true
             }
             Some(MeshChange::Replaced) => {
-                (self.outline, self.pieces) = derived_in_steps(&self.follower, self.document.paint(), random);
+                (self.derived, self.pieces) = derived_in_steps(&self.follower, self.document.paint(), random);
                 true
             }
         }
@@ -172,8 +219,8 @@ impl Scene {
     fn replace(&mut self, changes: &Changes) {
         let mesh = self.follower.mesh();
         let targets = self.follower.edge_targets(self.document.paint());
-        let ids = self.outline.update(mesh, targets, changes);
-        let replacements = ids.iter().map(|&id| self.outline.replacement(mesh, id));
+        let ids = self.derived.update(mesh, targets, changes, usize::MAX).unwrap();
+        let replacements = ids.iter().map(|&id| self.derived.replacement(mesh, id));
         let touched = self.pieces.replace(mesh, changes, replacements);
         let is_touched = |id| touched.iter().any(|(touched, _)| *touched == id);
         let replaced = ids.iter().filter(|id| self.pieces.replacement(**id).is_some());
@@ -183,12 +230,15 @@ impl Scene {
     fn check(&self, edit: usize) {
         let (mesh, domain) = (self.follower.mesh(), self.follower.domain());
         let targets = self.follower.edge_targets(self.document.paint());
-        let scratch = DerivedMesh::new(mesh, domain, targets, &Cleaning::NONE);
-        let kept = DerivedMesh::of_follower(mesh, domain, &self.outline, targets, &Cleaning::NONE);
+        let cleaning = cleaning_of(&self.follower);
+        let scratch = DerivedMesh::new(mesh, domain, targets, &cleaning);
         let name = format!("{}, edit {edit}", self.name);
-        assert!(triangles(mesh, &kept) == triangles(mesh, &scratch), "{name}: other triangles");
-        assert_eq!(kept.fit(), scratch.fit(), "{name}");
-        assert_eq!(kept.violations(&kept.extract(mesh)), [], "{name}");
+        if let Some(outline) = self.derived.outline() {
+            let kept = DerivedMesh::of_follower(mesh, domain, outline, targets, &cleaning);
+            assert!(triangles(mesh, &kept) == triangles(mesh, &scratch), "{name}: other triangles");
+            assert_eq!(kept.fit(), scratch.fit(), "{name}");
+            assert_eq!(kept.violations(&kept.extract(mesh)), [], "{name}");
+        }
         let drawn = Drawn::of(mesh, &self.pieces);
         let from_scratch = Drawn::of(mesh, &pieces_of(mesh, &scratch));
         assert!(drawn.pieces == from_scratch.pieces, "{name}: other pieces are drawn");
@@ -196,12 +246,12 @@ impl Scene {
     }
 }
 
-#[test]
-fn nodes_kept_on_the_outline_are_those_derived_from_scratch() {
+/// Edits scenes, and returns how often their meshes changed.
+fn edited(seeds: impl Iterator<Item = u64>, kind: Kind, edits: usize) -> usize {
     let mut changed = 0;
-    for seed in 0..runs(10) {
-        let (mut scene, mut random) = (Scene::new(seed), Rng::with_seed(seed));
-        for edit in 0..25 {
+    for seed in seeds {
+        let (mut scene, mut random) = (Scene::new(seed, kind), Rng::with_seed(seed));
+        for edit in 0..edits {
             scene.edit(&mut random);
             if scene.follow(&mut random) {
                 scene.check(edit);
@@ -209,22 +259,53 @@ fn nodes_kept_on_the_outline_are_those_derived_from_scratch() {
             }
         }
     }
+    changed
+}
+
+#[test]
+fn nodes_kept_on_the_outline_are_those_derived_from_scratch() {
+    let changed = edited(0..runs(10), Kind::Coast, 25);
     assert!(changed > 60, "{changed} edits changed the mesh");
 }
 
 #[test]
+fn better_triangles_kept_along_the_outline_are_those_derived_from_scratch() {
+    let changed = edited(10..10 + runs(4), Kind::BetterCoast, 20);
+    assert!(changed > 25, "{changed} edits changed the mesh");
+}
+
+#[test]
+fn edges_kept_along_lines_are_those_derived_from_scratch() {
+    let changed = edited(20..20 + runs(5), Kind::LinesOnCoast, 20);
+    assert!(changed > 25, "{changed} edits changed the mesh");
+}
+
+#[test]
+fn edges_kept_along_lines_beside_better_triangles_are_those_derived_from_scratch() {
+    let changed = edited(30..30 + runs(4), Kind::LinesOnBetterCoast, 20);
+    assert!(changed > 20, "{changed} edits changed the mesh");
+}
+
+#[test]
+fn edges_kept_along_lines_without_an_outline_are_those_derived_from_scratch() {
+    let changed =
+        [Kind::LinesInStairs, Kind::LinesInRectangle].map(|kind| edited(40..40 + runs(4), kind, 20));
+    assert!(changed.iter().all(|&changed| changed > 20), "{changed:?} edits changed the mesh");
+}
+
+#[test]
 fn a_change_near_the_outline_that_is_too_large_is_reported() {
-    let (mut scene, mut random) = (Scene::new(2), Rng::with_seed(2));
+    let (mut scene, mut random) = (Scene::new(2, Kind::Coast), Rng::with_seed(2));
     let (mut some, mut none) = (0, 0);
     for _ in 0..30 {
         scene.edit(&mut random);
         while scene.follower.advance(&mut scene.document, 2000).unwrap() != Stage::InStep {}
         let Some(MeshChange::Within(changes)) = scene.follower.take_change() else { continue };
-        let mut limited = scene.outline.clone();
+        let mut limited = scene.derived.clone();
         let targets = scene.follower.edge_targets(scene.document.paint());
         let most = random.usize(1..200);
-        let few = limited.update_few(scene.follower.mesh(), targets, &changes, most);
-        let all = scene.outline.update(scene.follower.mesh(), targets, &changes);
+        let few = limited.update(scene.follower.mesh(), targets, &changes, most);
+        let all = scene.derived.update(scene.follower.mesh(), targets, &changes, usize::MAX).unwrap();
         match few {
             Some(few) => {
                 assert_eq!(few, all);
@@ -241,23 +322,24 @@ fn a_change_near_the_outline_that_is_too_large_is_reported() {
 
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
-    let in_pool = |threads: usize| {
+    let in_pool = |threads: usize, kind: Kind| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let (mut scene, mut random) = (Scene::new(4), Rng::with_seed(7));
+            let (mut scene, mut random) = (Scene::new(4, kind), Rng::with_seed(7));
             for _ in 0..8 {
                 scene.edit(&mut random);
                 scene.follow(&mut random);
             }
             let (mesh, domain) = (scene.follower.mesh(), scene.follower.domain());
             let targets = scene.follower.edge_targets(scene.document.paint());
-            let scratch = DerivedMesh::new(mesh, domain, targets, &Cleaning::NONE);
-            let kept = DerivedMesh::of_follower(mesh, domain, &scene.outline, targets, &Cleaning::NONE);
-            (scratch.patch().clone(), triangles(mesh, &kept))
+            let scratch = DerivedMesh::new(mesh, domain, targets, &cleaning_of(&scene.follower));
+            (scratch.patch().clone(), Drawn::of(mesh, &scene.pieces))
         })
     };
-    let one = in_pool(1);
-    for threads in [2, 3, 8] {
-        assert!(in_pool(threads) == one, "{threads} threads");
+    for kind in [Kind::Coast, Kind::LinesOnBetterCoast] {
+        let one = in_pool(1, kind);
+        for threads in [2, 3, 8] {
+            assert!(in_pool(threads, kind) == one, "{threads} threads");
+        }
     }
 }

@@ -12,7 +12,8 @@ use crate::domain::{is_near, lies_between, place};
 use crate::geometry::{BoxTree, LatticePoint, Rect, nearest_on_segment};
 use crate::mesh::Mesh;
 use crate::outline::angles::Angles;
-use crate::outline::lengths::{LengthAnswers, LengthRule};
+use crate::outline::islands::ChangedIsland;
+use crate::outline::lengths::{AskedArea, LengthAnswers, LengthRule};
 use crate::outline::local::Improver;
 use crate::outline::local::{LineNodeState, LocalMesh};
 
@@ -31,6 +32,7 @@ pub(super) struct Island<'a> {
     /// For each segment, the stretches that are left out: they have no edges.
     left_out: Vec<Vec<bool>>,
     pub(super) shared: &'a Shared<'a>,
+    asked: AskedArea,
 }
 
 /// What is the same for all islands.
@@ -56,7 +58,8 @@ type CutStretch = (usize, usize);
 impl<'a> Island<'a> {
     /// Segments that are much shorter than the triangles are left out from the beginning.
     pub(super) fn new(start: LocalMesh, cuts: Vec<CutSegment>, shared: &'a Shared<'a>) -> Self {
-        let mut island = Self { start, cuts, left_out: Vec::new(), shared };
+        let asked = AskedArea::default();
+        let mut island = Self { start, cuts, left_out: Vec::new(), shared, asked };
         let is_short = |cut: &CutSegment| {
             let [a, b] = cut.ends;
             let diameter = |stop: &Stop| island.diameter_at(stop);
@@ -66,6 +69,11 @@ impl<'a> Island<'a> {
         let left_out = island.cuts.iter().map(|cut| vec![is_short(cut); cut.inside.len()]).collect();
         island.left_out = left_out;
         island
+    }
+
+    /// Returns the island with the triangles that [`Self::fit`] returned.
+    pub(super) fn into_changed(self, now: LocalMesh) -> ChangedIsland {
+        ChangedIsland { start: self.start, now, asked: self.asked.rect() }
     }
 
     /// Returns the triangles with edges on the segments. What cannot have edges is left out, a stretch after
@@ -122,14 +130,14 @@ impl<'a> Island<'a> {
         let shared = self.shared;
         let mut improver = Improver {
             angles: &shared.angles,
-            answers: shared.lengths.answers(),
+            answers: shared.lengths.answers_noted(&self.asked),
             extent: shared.extent,
             segments: shared.segments,
             slides_along: None,
         };
         improver.run(local);
         for _ in 0..HALVINGS {
-            let mut answers = shared.lengths.answers();
+            let mut answers = shared.lengths.answers_noted(&self.asked);
             let counts = |local: &LocalMesh, t: u32| {
                 self.has_changed(local, t) && self.meets_target(local, t, &mut answers)
             };
@@ -214,7 +222,7 @@ impl<'a> Island<'a> {
 
     /// Returns the triangles that have too small an angle or too long an edge, the worst first.
     fn failing(&self, local: &LocalMesh) -> Vec<u32> {
-        let (angles, mut answers) = (&self.shared.angles, self.shared.lengths.answers());
+        let (angles, mut answers) = (&self.shared.angles, self.shared.lengths.answers_noted(&self.asked));
         let sharp = SharpNodes::new(local, angles);
         let mut failing = Vec::new();
         for t in 0..local.triangles.len() as u32 {

@@ -49,17 +49,17 @@ pub(in crate::outline) struct LocalMesh {
 }
 
 impl LocalMesh {
-    /// Makes the mesh of some triangles. `is_complete` says of each node of the mesh whether all triangles at
-    /// it are among them.
+    /// Makes the mesh of some triangles, of nodes at `places`. `is_complete` says of each of these whether
+    /// all triangles at it are among them.
     pub(in crate::outline) fn new(
-        whole: &PatchedMesh,
+        places: &[LatticePoint],
         triangles: &[PatchedTriangle],
         is_complete: &[bool],
         angles: &Angles,
         on_outline: &dyn Fn(LatticePoint) -> bool,
     ) -> Self {
         let mut ids: Vec<NodeId> = triangles.iter().flat_map(|t| t.corners).collect();
-        ids.sort_unstable_by_key(|id| (whole.points[id.index()], *id));
+        ids.sort_unstable_by_key(|id| (places[id.index()], *id));
         ids.dedup();
         let numbers: NumberMap<u32, u32> =
             ids.iter().enumerate().map(|(n, id)| (id.index() as u32, n as u32)).collect();
@@ -72,7 +72,7 @@ impl LocalMesh {
         sorted.sort_unstable();
         let (corners, owners): (Vec<[u32; 3]>, Vec<TriangleId>) = sorted.into_iter().unzip();
         let across = across(&corners);
-        let points: Vec<LatticePoint> = ids.iter().map(|id| whole.points[id.index()]).collect();
+        let points: Vec<LatticePoint> = ids.iter().map(|id| places[id.index()]).collect();
         let triangles = Triangulation::new(points.len(), corners, across);
         let mut local = Self {
             owners: owners.into_iter().map(Some).collect(),

@@ -15,41 +15,79 @@ impl LocalMesh {
         angles: &Angles,
         to: &mut Replaced,
     ) {
-        let mut used = vec![false; self.points.len()];
-        self.triangles
-            .corners
-            .iter()
-            .flatten()
-            .filter(|&&v| v != NONE)
-            .for_each(|&v| used[v as usize] = true);
+        let used = self.used();
         let mut ids = self.ids.clone();
         for (&at, &is_used) in self.points.iter().zip(&used).skip(self.ids.len()) {
             // The number of one without triangles is never read.
             ids.push(NodeId::from_index(whole.points.len() + to.added.len()));
             to.added.extend(is_used.then_some(at));
         }
-        let is_moved = |v: u32| start.points.get(v as usize).is_some_and(|&at| at != self.points[v as usize]);
-        let changed = (0..self.ids.len()).filter(|&v| used[v] && is_moved(v as u32));
+        let changed = (0..self.ids.len()).filter(|&v| used[v] && self.is_moved(start, v as u32));
         to.moved.extend(changed.map(|v| (self.ids[v], self.points[v])));
+        let numbered = |LocalTriangle { owner, corners, .. }: LocalTriangle| PatchedTriangle {
+            owner,
+            corners: corners.map(|v| ids[v as usize]),
+        };
+        for change in self.changed(start, angles) {
+            to.gone.extend(change.gone.map(numbered));
+            to.pieces.extend(change.piece.map(numbered));
+        }
+        to.edges.extend(self.fixed.iter().map(|(ends, &segment)| (segment, ends.map(|v| ids[v as usize]))));
+    }
+}
+
+/// A local triangle, by its number there and those of its corners.
+#[derive(Clone, Copy)]
+pub(in crate::outline) struct LocalTriangle {
+    pub(in crate::outline) number: u32,
+    /// The triangle of the mesh whose place it takes.
+    pub(in crate::outline) owner: TriangleId,
+    pub(in crate::outline) corners: [u32; 3],
+}
+
+/// What became of a local triangle that is not as it was.
+pub(in crate::outline) struct ChangedTriangle {
+    /// As it was.
+    pub(in crate::outline) gone: Option<LocalTriangle>,
+    /// As it is, beginning with the ends of its longest edge.
+    pub(in crate::outline) piece: Option<LocalTriangle>,
+}
+
+impl LocalMesh {
+    /// Returns for each node whether a triangle has it.
+    pub(in crate::outline) fn used(&self) -> Vec<bool> {
+        let mut used = vec![false; self.points.len()];
+        let corners = self.triangles.corners.iter().flatten().filter(|&&v| v != NONE);
+        corners.for_each(|&v| used[v as usize] = true);
+        used
+    }
+
+    /// Returns whether a node of the start is elsewhere.
+    pub(in crate::outline) fn is_moved(&self, start: &Self, v: u32) -> bool {
+        start.points.get(v as usize).is_some_and(|&at| at != self.points[v as usize])
+    }
+
+    /// Returns the triangles that are not as they were at the start.
+    pub(in crate::outline) fn changed<'a>(
+        &'a self,
+        start: &'a Self,
+        angles: &'a Angles,
+    ) -> impl Iterator<Item = ChangedTriangle> + 'a {
         // Triangles keep their numbers while they change.
-        for (t, &owner) in self.owners.iter().enumerate() {
+        let of_number = |(t, &owner): (usize, &Option<TriangleId>)| {
+            let number = t as u32;
             let former = start.owners.get(t).copied().flatten();
             let (is, was) = (self.triangles.corners[t], start.triangles.corners.get(t));
             let stays = was.is_some_and(|&was| owner.is_some() && (0..3).any(|i| is == turned(was, i)));
-            if let Some(owner) = former.filter(|_| !stays) {
-                let corners = start.triangles.corners[t].map(|v| ids[v as usize]);
-                to.gone.push(PatchedTriangle { owner, corners });
-            }
-            if let Some(owner) = owner.filter(|_| !stays || is.iter().any(|&v| is_moved(v))) {
-                let corners =
-                    turned(is, longest_edge(self.corners(t as u32), angles)).map(|v| ids[v as usize]);
-                if stays {
-                    to.gone.push(PatchedTriangle { owner, corners });
-                }
-                to.pieces.push(PatchedTriangle { owner, corners });
-            }
-        }
-        to.edges.extend(self.fixed.iter().map(|(ends, &segment)| (segment, ends.map(|v| ids[v as usize]))));
+            let is_same = stays && !is.iter().any(|&v| self.is_moved(start, v));
+            let before = |owner| LocalTriangle { number, owner, corners: start.triangles.corners[t] };
+            let now = |owner| {
+                let corners = turned(is, longest_edge(self.corners(number), angles));
+                LocalTriangle { number, owner, corners }
+            };
+            (!is_same).then(|| ChangedTriangle { gone: former.map(before), piece: owner.map(now) })
+        };
+        self.owners.iter().enumerate().filter_map(of_number)
     }
 }
 

@@ -1,58 +1,38 @@
 //! What is wrong with triangles along a boundary.
 
-use crate::mesh::TriangleId;
+use crate::geometry::LatticePoint;
+use crate::mesh::{NodeId, TriangleId};
 use crate::outline::angles::{Angles, COT_25};
-use crate::outline::local::{PatchedMesh, PatchedTriangle};
+use crate::outline::local::PatchedMesh;
 
 /// Most triangles at a node.
 pub(super) const MOST_AT_A_NODE: usize = 8;
 
 /// For each node, the triangles at it, and whether it is on the boundary.
-pub(super) struct BoundaryCensus {
-    counts: Vec<u32>,
-    is_on_boundary: Vec<bool>,
-}
-
-impl BoundaryCensus {
-    /// Counts in one pass over all triangles.
-    pub(super) fn new(whole: &PatchedMesh) -> Self {
-        let mut links = Links::new(whole.points.len());
-        for owner in (0..whole.mesh.raw_triangle_count()).map(TriangleId::from_index) {
-            whole.pieces_of(owner).for_each(|t| links.add(t.corners.map(|v| v.index())));
-        }
-        links.into_census()
-    }
-
-    pub(super) fn count(&self, node: usize) -> usize {
-        self.counts[node] as usize
-    }
-
-    pub(super) fn is_on_boundary(&self, node: usize) -> bool {
-        self.is_on_boundary[node]
-    }
-
-    /// Returns whether a triangle is a defect, or beside a node that is one.
-    pub(super) fn has_defect(&self, whole: &PatchedMesh, t: &PatchedTriangle, angles: &Angles) -> bool {
-        let nodes = t.corners.map(|v| v.index());
-        nodes.iter().all(|&v| self.is_on_boundary(v))
-            || nodes.iter().any(|&v| self.count(v) > MOST_AT_A_NODE)
-            || angles.worst(whole.corners(t)) > COT_25
-    }
-}
-
-/// The links of nodes: the nodes around each. Going around an inner node, each is entered as often as it is
-/// left, so the sum of all differences is 0; at a node on the boundary, the ends of its fans are left over.
-struct Links {
+///
+/// The latter is known by the nodes around it. Going around an inner node, each of these is entered as often
+/// as it is left, so the sum of all differences is 0; at a node on the boundary, the ends of its fans are
+/// left over.
+#[derive(Default)]
+pub(in crate::outline) struct BoundaryCensus {
     counts: Vec<u32>,
     sums: Vec<u64>,
 }
 
-impl Links {
-    fn new(nodes: usize) -> Self {
-        Self { counts: vec![0; nodes], sums: vec![0; nodes] }
+impl BoundaryCensus {
+    /// Counts in one pass over all triangles.
+    pub(super) fn of_all(whole: &PatchedMesh) -> Self {
+        let mut census = Self::default();
+        census.grow(whole.points.len());
+        for owner in (0..whole.mesh.raw_triangle_count()).map(TriangleId::from_index) {
+            whole.pieces_of(owner).for_each(|t| census.add(t.corners.map(|v| v.index())));
+        }
+        census
     }
 
-    fn add(&mut self, corners: [usize; 3]) {
+    /// Counts a triangle.
+    pub(in crate::outline) fn add(&mut self, corners: [usize; 3]) {
+        self.grow(corners.into_iter().fold(0, |most, v| most.max(v + 1)));
         for i in 0..3 {
             let [at, next, last] = [0, 1, 2].map(|k| corners[(i + k) % 3]);
             self.counts[at] += 1;
@@ -60,9 +40,27 @@ impl Links {
         }
     }
 
-    fn into_census(self) -> BoundaryCensus {
-        let is_on_boundary = self.sums.iter().map(|&sum| sum != 0).collect();
-        BoundaryCensus { counts: self.counts, is_on_boundary }
+    fn grow(&mut self, nodes: usize) {
+        if nodes > self.counts.len() {
+            self.counts.resize(nodes, 0);
+            self.sums.resize(nodes, 0);
+        }
+    }
+
+    pub(super) fn count(&self, node: usize) -> usize {
+        self.counts[node] as usize
+    }
+
+    pub(super) fn is_on_boundary(&self, node: usize) -> bool {
+        self.sums[node] != 0
+    }
+
+    /// Returns whether a triangle is a defect, or beside a node that is one.
+    pub(super) fn has_defect(&self, nodes: [NodeId; 3], corners: [LatticePoint; 3], angles: &Angles) -> bool {
+        let nodes = nodes.map(|v| v.index());
+        nodes.iter().all(|&v| self.is_on_boundary(v))
+            || nodes.iter().any(|&v| self.count(v) > MOST_AT_A_NODE)
+            || angles.worst(corners) > COT_25
     }
 }
 

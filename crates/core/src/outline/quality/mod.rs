@@ -18,53 +18,83 @@
 //! The defects and the triangles around them fall into islands, which all threads work on. An island is
 //! numbered by places on the lattice, so the result depends on neither the number of threads nor the order of
 //! the mesh's entries.
+//! After an edit, only the islands that it touches are changed again
+//! ([`DerivedFollower`](super::DerivedFollower)).
 
 mod census;
 mod repair;
 
 use rayon::prelude::*;
 
-use super::angles::Angles;
+use super::angles::{Angles, COT_25};
+use super::islands::{ChangedIsland, IslandRule};
 use super::lengths::{EdgeTargets, LengthRule};
 use super::local::{LocalMesh, PatchedMesh, Replaced, rings_around};
 use crate::domain::RegionOnLattice;
 use crate::geometry::LatticePoint;
-use crate::mesh::{Mesh, MeshPatch};
-use census::BoundaryCensus;
-use repair::{DefectIsland, RepairRules};
+use crate::mesh::{Mesh, MeshPatch, NodeId};
+pub(super) use census::BoundaryCensus;
+use repair::DefectIsland;
+pub(super) use repair::RepairRules;
 
-/// Rings of triangles around a defect. The nodes of the last one stay where they are.
-const RINGS: usize = 3;
+impl<'a> RepairRules<'a> {
+    /// Returns the rules for triangles along the outline of a region.
+    pub(super) fn new(mesh: &Mesh, region: &'a RegionOnLattice, targets: Option<EdgeTargets<'a>>) -> Self {
+        let angles = Angles::new(mesh.lattice().step());
+        let (lengths, extent) = (LengthRule::new(targets, angles), mesh.lattice().extent());
+        Self { angles, lengths, region, extent }
+    }
+}
 
-/// Returns a mesh with a patch, with better triangles along the outline of a region.
+impl IslandRule for RepairRules<'_> {
+    /// The nodes of the last ring stay where they are.
+    const RINGS: usize = 3;
+    const COUNTS: bool = true;
+
+    fn angles(&self) -> &Angles {
+        &self.angles
+    }
+
+    fn is_seed(&self, nodes: [NodeId; 3], corners: [LatticePoint; 3], census: &BoundaryCensus) -> bool {
+        census.has_defect(nodes, corners, &self.angles)
+    }
+
+    /// Nodes of a mesh of right-angled triangles have at most 8 of them.
+    fn may_be_seed(&self, corners: [LatticePoint; 3]) -> bool {
+        self.angles.worst(corners) > COT_25
+    }
+
+    fn is_on_outline(&self, p: LatticePoint) -> bool {
+        let step = self.angles.step();
+        self.region.nearest_on_outline(p.as_dvec2(), step.max_element(), step).is_some()
+    }
+
+    fn changed(&self, start: LocalMesh, census: &BoundaryCensus) -> ChangedIsland {
+        let (now, asked) = DefectIsland::new(start.clone(), census, self).repaired();
+        ChangedIsland { start, now, asked }
+    }
+}
+
+/// Returns a mesh with a patch, with better triangles along the outline of a region, and the islands that
+/// were changed.
 pub(super) fn with_better_boundary(
     mesh: &Mesh,
     patch: &MeshPatch,
     region: &RegionOnLattice,
     targets: Option<EdgeTargets>,
-) -> MeshPatch {
+) -> (MeshPatch, Vec<ChangedIsland>) {
     let whole = PatchedMesh::new(mesh, patch);
-    let angles = Angles::new(mesh.lattice().step());
-    let census = BoundaryCensus::new(&whole);
-    let (triangles, is_complete) = rings_around(&whole, RINGS, |t| census.has_defect(&whole, t, &angles));
-    let on_outline = |p: LatticePoint| {
-        region.nearest_on_outline(p.as_dvec2(), angles.step().max_element(), angles.step()).is_some()
-    };
-    let near = LocalMesh::new(&whole, &triangles, &is_complete, &angles, &on_outline);
-    let lengths = LengthRule::new(targets, angles);
-    let rules = RepairRules { angles: &angles, lengths: &lengths, region, extent: mesh.lattice().extent() };
-    let repaired: Vec<[LocalMesh; 2]> = near
-        .parts()
-        .into_par_iter()
-        .map(|part| {
-            let start = near.part(&part);
-            let repaired = DefectIsland::new(start.clone(), &census, &rules).repaired();
-            [start, repaired]
-        })
-        .collect();
+    let (rules, census) = (RepairRules::new(mesh, region, targets), BoundaryCensus::of_all(&whole));
+    let (triangles, is_complete) = rings_around(&whole, RepairRules::RINGS, |t| {
+        census.has_defect(t.corners, whole.corners(t), &rules.angles)
+    });
+    let on_outline = |p: LatticePoint| rules.is_on_outline(p);
+    let near = LocalMesh::new(&whole.points, &triangles, &is_complete, &rules.angles, &on_outline);
+    let parts = near.parts().into_par_iter();
+    let islands: Vec<ChangedIsland> = parts.map(|part| rules.changed(near.part(&part), &census)).collect();
     let mut replaced = Replaced::default();
-    for [start, local] in &repaired {
-        local.write(&whole, start, &angles, &mut replaced);
+    for island in &islands {
+        island.now.write(&whole, &island.start, &rules.angles, &mut replaced);
     }
-    replaced.into_patch(&whole)
+    (replaced.into_patch(&whole), islands)
 }

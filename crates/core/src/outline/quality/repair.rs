@@ -2,9 +2,9 @@
 
 use super::census::{BoundaryCensus, MOST_AT_A_NODE};
 use crate::domain::RegionOnLattice;
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, LatticeRect};
 use crate::outline::angles::{Angles, COT_25};
-use crate::outline::lengths::LengthRule;
+use crate::outline::lengths::{AskedArea, LengthRule};
 use crate::outline::local::{Improver, LineNodeState, LocalMesh};
 use crate::outline::triangulation::NONE;
 
@@ -15,9 +15,9 @@ const MOST_CHANGES: usize = 1000;
 const FLATTEST: f64 = 4.0;
 
 /// What is the same for all islands.
-pub(super) struct RepairRules<'a> {
-    pub(super) angles: &'a Angles,
-    pub(super) lengths: &'a LengthRule<'a>,
+pub(in crate::outline) struct RepairRules<'a> {
+    pub(super) angles: Angles,
+    pub(super) lengths: LengthRule<'a>,
     pub(super) region: &'a RegionOnLattice,
     /// The upper right corner of the lattice.
     pub(super) extent: LatticePoint,
@@ -56,6 +56,7 @@ pub(super) struct DefectIsland<'a> {
     now: DefectTriangles,
     badness: Badness,
     rules: &'a RepairRules<'a>,
+    asked: AskedArea,
 }
 
 impl<'a> DefectIsland<'a> {
@@ -64,30 +65,30 @@ impl<'a> DefectIsland<'a> {
         let mut elsewhere: Vec<usize> = local.ids.iter().map(|id| census.count(id.index())).collect();
         local.triangles.corners.iter().flatten().for_each(|&v| elsewhere[v as usize] -= 1);
         let now = DefectTriangles { local, is_on_boundary, elsewhere };
-        let badness = now.badness(rules.angles);
-        Self { now, badness, rules }
+        let badness = now.badness(&rules.angles);
+        Self { now, badness, rules, asked: AskedArea::default() }
     }
 
-    /// Returns the triangles with fewer defects.
-    pub(super) fn repaired(mut self) -> LocalMesh {
+    /// Returns the triangles with fewer defects, and the area in which targets were asked for.
+    pub(super) fn repaired(mut self) -> (LocalMesh, Option<LatticeRect>) {
         let mut improved = self.now.clone();
         self.improve(&mut improved);
-        let badness = improved.badness(self.rules.angles);
+        let badness = improved.badness(&self.rules.angles);
         self.take(improved, badness);
         for _ in 0..MOST_CHANGES {
-            let attempts = self.now.attempts(self.rules.angles);
+            let attempts = self.now.attempts(&self.rules.angles);
             if !attempts.into_iter().any(|attempt| self.try_out(attempt)) {
                 break;
             }
         }
-        self.now.local
+        (self.now.local, self.asked.rect())
     }
 
     fn improve(&self, triangles: &mut DefectTriangles) {
         let RepairRules { angles, lengths, region, extent } = self.rules;
         let mut improver = Improver {
             angles,
-            answers: lengths.answers(),
+            answers: lengths.answers_noted(&self.asked),
             extent: *extent,
             segments: &[],
             slides_along: Some(region),
@@ -109,11 +110,11 @@ impl<'a> DefectIsland<'a> {
     /// Makes a change if that leads to fewer defects.
     fn try_out(&mut self, attempt: Attempt) -> bool {
         let mut triangles = self.now.clone();
-        if !triangles.apply(attempt, self.rules) {
+        if !triangles.apply(attempt, self.rules, &self.asked) {
             return false;
         }
         self.improve(&mut triangles);
-        let badness = triangles.badness(self.rules.angles);
+        let badness = triangles.badness(&self.rules.angles);
         badness.defects < self.badness.defects && self.take(triangles, badness)
     }
 }
@@ -173,9 +174,9 @@ impl DefectTriangles {
     }
 
     /// Makes a change. Returns whether it was possible.
-    fn apply(&mut self, attempt: Attempt, rules: &RepairRules) -> bool {
+    fn apply(&mut self, attempt: Attempt, rules: &RepairRules, asked: &AskedArea) -> bool {
         match attempt {
-            Attempt::Flip(ends) => self.flip(ends, rules),
+            Attempt::Flip(ends) => self.flip(ends, rules, asked),
             Attempt::Halve(ends) => self.halve(ends),
             Attempt::HalveBoth([first, second]) => self.halve(first) && self.halve(second),
         }
@@ -190,12 +191,13 @@ impl DefectTriangles {
         (triangles.across[t as usize][opposite] != NONE).then_some((t, opposite))
     }
 
-    fn flip(&mut self, ends: [u32; 2], rules: &RepairRules) -> bool {
+    fn flip(&mut self, ends: [u32; 2], rules: &RepairRules, asked: &AskedArea) -> bool {
         let Some((t, i)) = self.beside(ends) else { return false };
         let Some((d, _)) = self.local.opposite(t, i) else { return false };
         let [a, b, c] = self.local.triangles.starting_at(t, i);
         let [a, b, c, d] = [a, b, c, d].map(|v| self.local.points[v as usize]);
-        let (new, former, mut answers) = ([[a, b, d], [a, d, c]], [a, b, c], rules.lengths.answers());
+        let (new, former, mut answers) =
+            ([[a, b, d], [a, d, c]], [a, b, c], rules.lengths.answers_noted(asked));
         let may = new.iter().all(|&points| {
             rules.angles.worst(points) < FLATTEST * rules.angles.limit() && answers.allow(points, former)
         });

@@ -1,7 +1,7 @@
 //! Meshes with edges along lines, against a checker that knows only nodes, triangles and lines.
 
 mod judge;
-mod random;
+pub mod random;
 
 use std::sync::Arc;
 

@@ -1,20 +1,21 @@
-//! The coast on the screen: nodes on the outline that are kept in step with the follower's mesh.
+//! The derived mesh on the screen: nodes on the outline, triangles along it and edges along lines that are
+//! kept in step with the follower's mesh.
 //!
 //! A job derives them once. From then on they follow each change of the mesh, before it is drawn, so that the
-//! screen shows the mesh on the outline also while a stroke is drawn.
+//! screen shows the derived mesh also while a stroke is drawn.
 
 use std::collections::HashSet;
 
 use crate::kit::platform::IS_PAGE;
 use meshbrush_core::document::{Follower, MeshChange};
 use meshbrush_core::layers::PaintLayers;
-use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
+use meshbrush_core::outline::{DerivedFollower, DerivedMesh};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Changes, Mesh, Replacement, TriangleId};
 
-/// Most triangles that come near the outline in one frame while it is kept in step. With more, the mesh is
-/// derived from scratch by a job: on another thread that takes as long as a few frames. A page has one
-/// thread.
+/// Most triangles that come near the outline in one frame while it is kept in step, and most that are changed
+/// again along lines or for a better boundary. With more, the mesh is derived from scratch by a job: on
+/// another thread that takes as long as a few frames. A page has one thread.
 const MOST_AT_ONCE: usize = if IS_PAGE { 32 } else { 4096 };
 
 /// The triangles that cleaning removed from a derived mesh, by their corners in ascending order.
@@ -36,12 +37,12 @@ fn sorted(mut corners: [LatticePoint; 3]) -> [LatticePoint; 3] {
     corners
 }
 
-/// Nodes on the outline that are kept in step, once a job has derived them.
+/// What is kept in step, once a job has derived it.
 #[derive(Default)]
 pub(super) struct Coast {
-    outline: Option<OutlineFollower>,
+    derived: Option<DerivedFollower>,
     /// A former one, which another thread is to drop.
-    useless: Option<OutlineFollower>,
+    useless: Option<DerivedFollower>,
     /// What the last derived mesh is without. Which parts of a mesh are too small is known for the whole mesh
     /// only, so edits do not change it: what was removed stays removed until the next mesh is derived, and
     /// triangles that come meanwhile are drawn, also where they join or divide removed ones.
@@ -51,7 +52,8 @@ pub(super) struct Coast {
 impl Coast {
     /// Returns whether it belongs to the domain of the follower. It is then in step with the mesh.
     pub(super) fn is_of(&self, follower: &Follower) -> bool {
-        self.outline.as_ref().is_some_and(|outline| has_domain_of(outline, follower))
+        let cleaning = follower.settings().derived_cleaning();
+        self.derived.as_ref().is_some_and(|derived| derived.is_of(follower.domain(), &cleaning))
     }
 
     /// Returns whether nothing was removed.
@@ -68,10 +70,10 @@ impl Coast {
         paint: &PaintLayers,
         changes: &Changes,
     ) -> Option<Vec<TriangleId>> {
-        let outline = self.outline.as_mut()?;
-        let is_of_domain = has_domain_of(outline, follower);
+        let is_of_domain = self.is_of(follower);
+        let derived = self.derived.as_mut()?;
         let targets = follower.edge_targets(paint);
-        let update = || outline.update_few(follower.mesh(), targets, changes, MOST_AT_ONCE);
+        let update = || derived.update(follower.mesh(), targets, changes, MOST_AT_ONCE);
         let replaced = is_of_domain.then(update).flatten();
         if replaced.is_none() {
             self.forget();
@@ -79,17 +81,16 @@ impl Coast {
         replaced
     }
 
-    /// Begins with an outline that was derived before a change of the mesh. Returns what [`Self::follow`]
-    /// returns.
+    /// Begins with what was derived before a change of the mesh. Returns what [`Self::follow`] returns.
     pub(super) fn begin(
         &mut self,
-        outline: OutlineFollower,
+        derived: DerivedFollower,
         follower: &Follower,
         paint: &PaintLayers,
         since: Option<&MeshChange>,
     ) -> Option<Vec<TriangleId>> {
         self.forget();
-        self.outline = Some(outline);
+        self.derived = Some(derived);
         let unchanged = Changes::default();
         match since {
             None => self.follow(follower, paint, &unchanged),
@@ -109,21 +110,21 @@ impl Coast {
         }
     }
 
-    /// Stops keeping the outline in step.
+    /// Stops keeping anything in step.
     pub(super) fn forget(&mut self) {
-        self.useless = self.outline.take().or(self.useless.take());
+        self.useless = self.derived.take().or(self.useless.take());
     }
 
-    /// Returns a former outline, to be dropped.
-    pub(super) fn take_useless(&mut self) -> Option<OutlineFollower> {
+    /// Returns what was kept in step before, to be dropped.
+    pub(super) fn take_useless(&mut self) -> Option<DerivedFollower> {
         self.useless.take()
     }
 
     /// Returns what is drawn in place of triangles of the mesh, which the coast must be in step with.
     pub(super) fn replacements(&self, mesh: &Mesh, ids: &[TriangleId]) -> impl Iterator<Item = Replacement> {
-        let outline = self.outline.iter();
-        outline.flat_map(|outline| {
-            ids.iter().map(|&id| self.without_removed(mesh, outline.replacement(mesh, id)))
+        let derived = self.derived.iter();
+        derived.flat_map(|derived| {
+            ids.iter().map(|&id| self.without_removed(mesh, derived.replacement(mesh, id)))
         })
     }
 
@@ -137,13 +138,4 @@ impl Coast {
         }
         replacement
     }
-}
-
-/// Returns whether the outline is that of the follower's domain, and all that is done to triangles along it.
-fn has_domain_of(outline: &OutlineFollower, follower: &Follower) -> bool {
-    let domains = [outline.domain(), follower.domain()];
-    let regions = domains.map(|domain| domain.region_on_outline());
-    domains.iter().all(|domain| domain.lines().is_none())
-        && !follower.settings().derived_cleaning().improves_boundary
-        && matches!(regions, [Some(a), Some(b)] if std::ptr::eq(a, b))
 }

@@ -26,7 +26,7 @@ use super::jobs::{Job, JobKind, Jobs, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
 use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Region};
 use meshbrush_core::layers::PaintLayers;
-use meshbrush_core::outline::{DerivedMesh, LineFit, MeshDerivation, OutlineFit, OutlineFollower};
+use meshbrush_core::outline::{DerivedFollower, DerivedMesh, LineFit, MeshDerivation, OutlineFit};
 use meshbrush_mesh::mesh::{
     Changes, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
     TriangleId,
@@ -123,7 +123,7 @@ struct RunningDerivation {
 /// The values that the other thread sends, in this order.
 enum DerivationResult {
     Derived(Box<Derived>, PatchPieces, RemovedTriangles),
-    Coast(Box<OutlineFollower>),
+    Coast(Box<DerivedFollower>),
     Quality(FitQuality),
 }
 
@@ -267,7 +267,7 @@ impl Derivation {
                 self.latest = Some(*derived);
                 self.replace_pieces(pieces);
             }
-            DerivationResult::Coast(outline) => self.begin_coast(*outline, follower, paint),
+            DerivationResult::Coast(coast) => self.begin_coast(*coast, follower, paint),
             DerivationResult::Quality(quality) => {
                 if let Some(derived) = &mut self.latest {
                     derived.quality = Some(quality);
@@ -297,9 +297,9 @@ impl Derivation {
     }
 
     /// Lets the coast of the mesh that was derived catch up with the mesh, and shows it.
-    fn begin_coast(&mut self, outline: OutlineFollower, follower: &Follower, paint: &PaintLayers) {
+    fn begin_coast(&mut self, coast: DerivedFollower, follower: &Follower, paint: &PaintLayers) {
         let since = self.running.as_ref().and_then(|running| running.since.as_ref());
-        if let Some(ids) = self.coast.begin(outline, follower, paint, since) {
+        if let Some(ids) = self.coast.begin(coast, follower, paint, since) {
             let mesh = follower.mesh();
             let replacements = self.coast.replacements(mesh, &ids);
             let touched = self.pieces.replace(mesh, &Changes::default(), replacements);
@@ -308,9 +308,7 @@ impl Derivation {
     }
 
     fn start(&mut self, key: DerivationKey, follower: &Follower, paint: &PaintLayers, jobs: &Jobs) {
-        // What follows the outline knows nothing of lines, and does not improve triangles.
-        let is_plain = key.lines.is_empty() && !key.cleaning.improves_boundary;
-        let follows = is_plain && !self.coast.is_of(follower);
+        let follows = !self.coast.is_of(follower);
         // Dropping a large one takes longer than a frame.
         let useless = self.coast.take_useless();
         let settings = follower.settings();
@@ -369,8 +367,8 @@ impl DerivationWork {
             }
             DerivationStep::Follow(mut derivation, extract) => {
                 let progress = derivation.advance();
-                if let Some(outline) = derivation.take_follower() {
-                    output.send(DerivationResult::Coast(Box::new(outline)));
+                if let Some(coast) = derivation.take_follower() {
+                    output.send(DerivationResult::Coast(Box::new(coast)));
                 }
                 match progress {
                     Progress::More => DerivationStep::Follow(derivation, extract),

@@ -13,8 +13,8 @@ pub struct Changes {
     pub nodes: Vec<Range<usize>>,
     /// Changed ranges of [`Mesh::triangles`](crate::mesh::Mesh::triangles).
     pub triangles: Vec<Range<usize>>,
-    /// Rectangles in which target diameters may have changed: where nodes are moved to an outline, the
-    /// lengths of edges depend on them. Empty without such nodes.
+    /// Rectangles in which target diameters may have changed: where nodes are moved to an outline, or edges
+    /// made along lines, the lengths of edges depend on them. Empty without either.
     pub retargeted: Vec<LatticeRect>,
 }
 
