@@ -121,8 +121,8 @@ pub use meshbrush_io::io::{
 };
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{
-    BoundaryEdge, Cell, DrawnPiece, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces,
-    PatchTriangle, Replacement,
+    BoundaryEdge, Cell, CurveOrder, DrawnPiece, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView,
+    PatchPieces, PatchTriangle, Replacement,
 };
 #[doc(inline)]
 pub use meshbrush_render::colormap::{Colormap, Ground, LevelColors};

@@ -27,8 +27,8 @@ mod extract;
 mod query;
 
 pub use extract::{
-    BoundaryEdge, Cell, DrawnPiece, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces,
-    PatchTriangle, Replacement,
+    BoundaryEdge, Cell, CurveOrder, DrawnPiece, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView,
+    PatchPieces, PatchTriangle, Replacement,
 };
 pub use kernel::{
     Answer, BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, InvalidTarget, LevelsWithin,

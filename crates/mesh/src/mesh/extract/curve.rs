@@ -29,7 +29,7 @@ impl Extract<'_> {
     /// [`Self::place_of`] gives the new numbers. Takes 16 bytes a triangle while it works, and a copy
     /// of arrays that are the mesh's.
     pub fn along_curve(self) -> Extract<'static> {
-        let mut order = self.order_along_curve();
+        let CurveOrder { triangles: mut order, nodes } = self.curve_order();
         let mut numbers = vec![Neighbour::BOUNDARY; order.len()];
         for (number, &former) in order.iter().enumerate() {
             numbers[former as usize] = TriangleId::from_index(number).into();
@@ -43,12 +43,12 @@ impl Extract<'_> {
             }
         };
         drop(order);
-        let nodes = NodesInOrder::new(&triangles, self.nodes.len());
+        let node_numbers = numbers_of(&nodes);
         triangles.par_iter_mut().for_each(|triangle| {
             triangle.raw_neighbours = triangle.raw_neighbours.map(renumbered);
-            triangle.vertices = triangle.vertices.map(|node| nodes.numbers[node.index()]);
+            triangle.vertices = triangle.vertices.map(|node| node_numbers[node.index()]);
         });
-        let coordinates = self.coordinates.map(|of| in_order(&of, &nodes.order));
+        let coordinates = self.coordinates.map(|of| in_order(&of, &nodes));
         let places = match self.places {
             Some(mut places) => {
                 places.par_iter_mut().for_each(|place| *place = renumbered(*place));
@@ -58,12 +58,26 @@ impl Extract<'_> {
         };
         Extract {
             lattice: self.lattice,
-            nodes: Cow::Owned(in_order(&self.nodes, &nodes.order)),
+            nodes: Cow::Owned(in_order(&self.nodes, &nodes)),
             triangles: Cow::Owned(triangles),
             places: Some(places),
             is_patched: self.is_patched,
             coordinates,
         }
+    }
+
+    /// Returns the order in which [`Self::along_curve`] has triangles and nodes.
+    pub fn curve_order(&self) -> CurveOrder {
+        let triangles = self.order_along_curve();
+        let used = triangles.iter().flat_map(|&number| self.triangles[number as usize].vertices);
+        let mut is_used = vec![false; self.nodes.len()];
+        let mut nodes = Vec::with_capacity(self.nodes.len());
+        for node in used {
+            if !std::mem::replace(&mut is_used[node.index()], true) {
+                nodes.push(node.index() as u32);
+            }
+        }
+        CurveOrder { triangles, nodes }
     }
 
     /// Returns the numbers of the triangles in their order along the curve.
@@ -88,28 +102,39 @@ impl Extract<'_> {
     }
 }
 
-/// The nodes of triangles in the order in which these use them.
-struct NodesInOrder {
-    /// The former number of each node.
-    order: Vec<u32>,
-    /// The new number of each node, by its former one.
-    numbers: Vec<NodeId>,
+/// The order of triangles and nodes along the Sierpiński curve ([`Extract::along_curve`]): the number that
+/// each had before.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct CurveOrder {
+    triangles: Vec<u32>,
+    nodes: Vec<u32>,
 }
 
-impl NodesInOrder {
-    fn new(triangles: &[Triangle], count: usize) -> Self {
-        const UNUSED: u32 = u32::MAX;
-        let (mut order, mut numbers) = (Vec::with_capacity(count), vec![UNUSED; count]);
-        for node in triangles.iter().flat_map(|triangle| triangle.vertices) {
-            let number = &mut numbers[node.index()];
-            if *number == UNUSED {
-                *number = order.len() as u32;
-                order.push(node.index() as u32);
-            }
-        }
-        let numbers = numbers.into_iter().map(|number| NodeId::from_index(number as usize)).collect();
-        Self { order, numbers }
+impl CurveOrder {
+    /// Puts a value for each triangle in the order of the curve.
+    ///
+    /// # Panics
+    /// Panics when there are fewer values than triangles.
+    pub fn of_triangles<T: Copy + Send + Sync>(&self, values: &[T]) -> Vec<T> {
+        in_order(values, &self.triangles)
     }
+
+    /// Puts a value for each node in the order of the curve.
+    ///
+    /// # Panics
+    /// Panics when there are fewer values than nodes.
+    pub fn of_nodes<T: Copy + Send + Sync>(&self, values: &[T]) -> Vec<T> {
+        in_order(values, &self.nodes)
+    }
+}
+
+/// Returns the new number of each node, by its former one.
+fn numbers_of(nodes: &[u32]) -> Vec<NodeId> {
+    let mut numbers = vec![NodeId::from_index(0); nodes.len()];
+    for (number, &former) in nodes.iter().enumerate() {
+        numbers[former as usize] = NodeId::from_index(number);
+    }
+    numbers
 }
 
 /// Puts each entry where the order has its number. The order is used up.
@@ -206,6 +231,11 @@ mod tests {
                 assert_eq!(at, made.place_of(id).map(|_| mesh.triangle(id).vertices.map(|v| mesh.node(v))));
             }
             let first_uses = ordered.triangles().iter().flat_map(|triangle| triangle.vertices);
+            let order = made.curve_order();
+            assert_eq!(order.of_nodes(made.nodes()), ordered.nodes());
+            let levels =
+                |extract: &Extract| extract.triangles().iter().map(Triangle::level).collect::<Vec<_>>();
+            assert_eq!(order.of_triangles(&levels(&made)), levels(&ordered));
             let highest = first_uses.fold(0, |next, node| {
                 assert!(node.index() <= next, "nodes are numbered as they are first used");
                 next.max(node.index() + 1)

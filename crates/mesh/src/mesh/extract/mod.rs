@@ -10,6 +10,7 @@ mod refined;
 mod statistics;
 mod view;
 
+pub use curve::CurveOrder;
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
 pub use patch::{MeshPatch, PatchTriangle};
 pub use pieces::{DrawnPiece, PatchPieces, Replacement};
