@@ -3,6 +3,7 @@
 #[expect(clippy::module_inception, reason = "the part is named for its main type")]
 mod extract;
 mod boundary;
+mod homes;
 mod patch;
 mod pieces;
 mod refined;
