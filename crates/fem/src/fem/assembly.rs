@@ -126,13 +126,11 @@ impl Assembly<'_> {
         let shape = ElementShape::of(self.mesh, triangle);
         let own = (0..3).find(|&k| corners[k] as usize == node).unwrap_or(0);
         let mass = shape.measure() * data.reaction / 12.0;
-        let [x, y] = shape.metric;
-        let drift = glam::DVec2::new(data.convection.x / x, data.convection.y / y) * shape.measure() / 3.0;
         row.right += data.loads[own];
         for (k, &column) in corners.iter().enumerate() {
             let mut value = data.diffusion * coupling(&shape, own, k) + mass;
             if with_convection {
-                value += drift.dot(shape.gradients[k]);
+                value += shape.drift(data.convection, shape.gradients[k]) / 3.0;
             }
             match k == own {
                 true => row.diagonal += value + mass,

@@ -39,11 +39,32 @@ impl ElementShape {
         self.area * (y / x * (v.x * w.x) + x / y * (v.y * w.y))
     }
 
+    /// Returns the flux through edges in the plane for a gradient per world unit and a diffusion of 1.
+    #[inline]
+    pub fn stretched(&self, gradient: DVec2) -> DVec2 {
+        let [x, y] = self.metric;
+        DVec2::new(y / x * gradient.x, x / y * gradient.y)
+    }
+
+    /// Returns the product of two fluxes per unit of area in the plane, for a diffusion of 1.
+    #[inline]
+    pub fn flux_product(&self, v: DVec2, w: DVec2) -> f64 {
+        let [x, y] = self.metric;
+        x / y * (v.x * w.x) + y / x * (v.y * w.y)
+    }
+
     /// Returns the gradient of a linear function, per world unit.
     #[inline]
     pub fn gradient(&self, values: [f64; 3]) -> DVec2 {
         let [a, b, c] = self.gradients;
         values[0] * a + values[1] * b + values[2] * c
+    }
+
+    /// Returns the integral of b·∇u.
+    #[inline]
+    pub fn drift(&self, convection: DVec2, gradient: DVec2) -> f64 {
+        let [x, y] = self.metric;
+        self.area * (y * (convection.x * gradient.x) + x * (convection.y * gradient.y))
     }
 
     /// Returns the longest edge.

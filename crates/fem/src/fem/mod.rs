@@ -25,7 +25,15 @@ mod hierarchy;
 mod cycle;
 mod krylov;
 mod solution;
+mod flux;
+mod doubt;
+mod source_range;
+mod transport;
+mod bound;
+mod exact_error;
 
+pub use bound::ErrorBound;
+pub use doubt::Doubt;
 pub use fem_error::FemError;
 pub use fem_mesh::FemMesh;
 pub use plane_metric::PlaneMetric;

@@ -123,4 +123,8 @@ impl<'a> Values<'a> {
     pub fn constant(&self) -> Option<f64> {
         self.constant
     }
+
+    pub fn formula(&self) -> &'a Formula {
+        self.formula
+    }
 }

@@ -11,3 +11,4 @@ mod manufactured;
 mod steps;
 mod same_bits;
 mod bad_input;
+mod bounds;

@@ -9,11 +9,11 @@ use crate::solved::{dirichlet, formula, mesh_of, poisson};
 
 /// Coarse spacings and targets: uniform by bisection, a coarse grid alone, towards a point, towards lines.
 const MESHES: [(f64, &str); 5] = [
-    (0.25, "0.012"),
-    (0.007, "1"),
-    (0.25, "0.0001+0.1*hypot(x-0.37,y-0.41)"),
-    (0.25, "0.002+0.1*abs(x-0.3)"),
-    (0.1, "0.003+0.1*abs(x-0.3+0.2*y)"),
+    (0.25, "0.02"),
+    (0.012, "1"),
+    (0.25, "0.0005+0.15*hypot(x-0.37,y-0.41)"),
+    (0.25, "0.004+0.1*abs(x-0.3)"),
+    (0.1, "0.006+0.1*abs(x-0.3+0.2*y)"),
 ];
 
 /// Jumps along edges of the mesh and across its triangles.
