@@ -39,6 +39,9 @@ pub struct ErrorBound {
     pub oscillation: f64,
     /// Why the bound is an estimate; empty where it is guaranteed.
     pub doubts: Vec<Doubt>,
+    /// The flux that proves it, out of each triangle through the edge opposite each of its corners, in the
+    /// order of the [`FemMesh`]. It is the same on both sides of an edge.
+    pub fluxes: Vec<[f64; 3]>,
 }
 
 impl ErrorBound {
@@ -73,6 +76,7 @@ impl ErrorBound {
             of_triangles: terms.iter().map(Term::total).collect(),
             oscillation,
             doubts: doubts.list(),
+            fluxes: fluxes.out,
         }
     }
 
@@ -83,7 +87,7 @@ impl ErrorBound {
 }
 
 /// A share of the bound for the rounding of its sums.
-const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 struct BoundParts<'a> {
     mesh: &'a FemMesh,

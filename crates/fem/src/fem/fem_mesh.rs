@@ -115,6 +115,11 @@ impl FemMesh {
         ordered
     }
 
+    /// Returns the number in the extract of a triangle.
+    pub(crate) fn triangle_in_extract(&self, triangle: usize) -> usize {
+        self.triangle_in_extract[triangle] as usize
+    }
+
     /// Returns the corners of a triangle, in world units.
     #[inline]
     pub(crate) fn triangle(&self, triangle: usize) -> [DVec2; 3] {

@@ -129,6 +129,11 @@ impl Equilibration<'_> {
             across += brought;
             crossing.push(across);
         }
+        // What the solver left is missing in the last triangle, and not between it and its neighbour.
+        let closing = if is_closed { Some(start) } else { ends[1] };
+        if let (Some(last), Some(closing)) = (crossing.last_mut(), closing) {
+            *last = closing;
+        }
         let circulation = match ends {
             [None, None] => self.circulation(chain, &crossing),
             _ => 0.0,

@@ -31,6 +31,8 @@ mod source_range;
 mod transport;
 mod bound;
 mod exact_error;
+mod marking;
+mod proof;
 
 pub use bound::ErrorBound;
 pub use doubt::Doubt;
@@ -38,4 +40,5 @@ pub use fem_error::FemError;
 pub use fem_mesh::FemMesh;
 pub use plane_metric::PlaneMetric;
 pub use problem::{BoundaryCondition, EVERY_PIECE, FemProblem, NamedCondition};
+pub use proof::{BoundProof, WITHOUT_PROOF};
 pub use solution::{ACCURACY, FemSolution};

@@ -53,13 +53,13 @@ pub enum BoundaryCondition {
 }
 
 impl Default for FemProblem {
-    /// −∇·∇u = 1 with nothing on the boundary.
+    /// −∇·∇u = 0 with nothing on the boundary.
     fn default() -> Self {
         Self {
             diffusion: Formula::constant_of(1.0),
             convection: None,
             reaction: Formula::constant_of(0.0),
-            source: Formula::constant_of(1.0),
+            source: Formula::constant_of(0.0),
             conditions: Vec::new(),
         }
     }

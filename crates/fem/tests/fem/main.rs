@@ -11,4 +11,5 @@ mod manufactured;
 mod steps;
 mod same_bits;
 mod bad_input;
+mod adaptive;
 mod bounds;

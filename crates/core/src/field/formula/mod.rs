@@ -179,8 +179,8 @@ impl Formula {
     }
 
     /// Returns a polynomial of degree 2 near [`Self::eval`] over a closed rectangle in world units, and a
-    /// bound of the distance from it: the coefficients of 1, u, v, u², uv and v², where u and v run from −1 to 1.
-    /// `None` where no bound is known.
+    /// bound of the distance from it: the coefficients of 1, u, v, u², uv and v², where u and v run from −1
+    /// to 1. `None` where no bound is known.
     ///
     /// ```
     /// use glam::dvec2;

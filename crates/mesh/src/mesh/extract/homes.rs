@@ -1,8 +1,8 @@
-//! Where the nodes of an extract come from.
+//! Where the nodes and triangles of an extract come from.
 
 use super::MeshPatch;
 use crate::geometry::LatticePoint;
-use crate::mesh::kernel::Mesh;
+use crate::mesh::kernel::{Mesh, TriangleId};
 
 impl Mesh {
     /// Returns for each node of [`Mesh::extract_with`] its place before a patch moved it; `None` for one that
@@ -26,5 +26,23 @@ impl Mesh {
         kept.chain(pieces).for_each(|node| is_used[node.index()] = true);
         let home = |node: usize| self.nodes.get(node).copied();
         is_used.iter().enumerate().filter(|(_, is_used)| **is_used).map(|(node, _)| home(node)).collect()
+    }
+
+    /// Returns for each triangle of [`Mesh::extract_with`] the triangle of the mesh that it is, or replaces.
+    ///
+    /// # Panics
+    /// Panics when the patch is of another mesh.
+    pub fn sources_with(&self, patch: &MeshPatch) -> Vec<TriangleId> {
+        let mut sources = Vec::with_capacity(self.triangle_count());
+        let mut changed = patch.changed.iter().peekable();
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let id = TriangleId::from_index(index);
+            match changed.next_if(|(of, _)| *of == id) {
+                Some((_, pieces)) => sources.extend(pieces.clone().map(|_| id)),
+                None if triangle.is_outside() => {}
+                None => sources.push(id),
+            }
+        }
+        sources
     }
 }
