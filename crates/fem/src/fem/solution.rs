@@ -34,7 +34,7 @@ pub struct FemSolution {
 }
 
 /// The residual at which a solver stops, as a share of the right side.
-pub const ACCURACY: f64 = 1e-10;
+pub const ACCURACY: f64 = 1e-11;
 /// Most triangles.
 const MOST_TRIANGLES: usize = 500_000_000;
 /// Sources and flux balance when they differ by less than this share of them.
