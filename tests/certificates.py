@@ -35,6 +35,53 @@ def certificate(program, folder, arguments):
     return json.loads(file.read_text())
 
 
+def solution(program, folder, arguments):
+    file = folder / "solution.json"
+    subprocess.run([program, "solve", *arguments, "--certificate", file], check=True, capture_output=True)
+    return json.loads(file.read_text())
+
+
+SOLUTIONS = {
+    "a square": "--spacing 0.2 --target 0.1 --source 3 --dirichlet all=1+2*x-y".split(),
+    "a disc": ["--domain", "-1,-1,1,1", "--inside", "r<0.9", "--spacing", "0.25", "--diffusion", "0.01", "--source", "1", "--dirichlet", "all=0"],
+    "an L by its error": ["--domain", "-1,-1,1,1", "--inside", "not (x>0 and y<0)", "--spacing", "0.25", "--source", "1", "--dirichlet", "all=0"]
+    + ["--at-most", "600"],
+}
+
+
+def check_solutions(program, folder):
+    """Certificates of solutions hold, and not with one number changed."""
+    for name, arguments in SOLUTIONS.items():
+        good = solution(program, folder, arguments)
+        answer = check(folder, good, checker="check_solution.py")
+        assert answer.returncode == 0, f"{name}: {answer.stderr}"
+        middle = len(good["out"]) // 2
+
+        def bad(change):
+            copy = json.loads(json.dumps(good))
+            change(copy)
+            assert check(folder, copy, checker="check_solution.py").returncode != 0, f"{name}: {change.__name__}"
+
+        def smaller_bound(copy):
+            copy["bound"] *= 0.999
+
+        def other_flux(copy):
+            copy["out"][middle][1] += 1e-3
+
+        def other_value(copy):
+            copy["v"][copy["triangles"][middle][2]] += 0.5
+
+        def other_source(copy):
+            copy["f"][middle] += 50.0
+
+        def turned(copy):
+            copy["triangles"][middle].reverse()
+
+        for change in (smaller_bound, other_flux, other_value, other_source, turned):
+            bad(change)
+    print(f"{len(SOLUTIONS)} certificates of solutions hold, and are refused with one number changed")
+
+
 def check(folder, certificate, *options, checker="check_certificate.py"):
     file = folder / "checked.json"
     file.write_text(json.dumps(certificate))
@@ -158,6 +205,7 @@ def main():
                 assert "AssertionError: " in checked.stderr, f"{title}, {what}: {checked.stdout}{checked.stderr}"
                 refused += 1
         refused += check_meshes(program, folder)
+        check_solutions(program, folder)
     print(f"{len(CASES) + len(MESHES)} certificates hold, and {refused} with one change are refused")
 
 

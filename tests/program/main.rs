@@ -27,6 +27,7 @@ mod sequence;
 #[path = "../shared/runs.rs"]
 mod runs;
 mod solver_seas;
+mod solve;
 mod straits;
 mod strips;
 mod surface;

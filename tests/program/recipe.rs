@@ -66,8 +66,17 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
     assert_eq!((settings.layer.len(), settings.output.len()), (4, 2));
     assert_eq!((settings.paths.routes.len(), settings.keep_out.len()), (1, 1));
     // The message about a key that does not exist lists those that do.
-    let tables =
-        ["[{}]", "[domain]", "[mesh]", "[limits]", "[paths]", "[[keep_out]]", "[pins]", "[[output]]"];
+    let tables = [
+        "[{}]",
+        "[domain]",
+        "[mesh]",
+        "[limits]",
+        "[paths]",
+        "[problem]",
+        "[[keep_out]]",
+        "[pins]",
+        "[[output]]",
+    ];
     let layers = SavedKind::ALL.iter().map(|kind| format!("[[layer]]\nkind = \"{}\"", kind.word()));
     for table in tables.map(str::to_owned).into_iter().chain(layers) {
         let text = table.replace("[{}]", "") + "\nqqqqqqqqqqqqqqqqqqqq = 1";

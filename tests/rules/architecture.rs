@@ -10,7 +10,7 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 35] = [
+const MODULES: [&str; 36] = [
     "text",
     "geometry",
     "mesh",
@@ -28,6 +28,7 @@ const MODULES: [&str; 35] = [
     "cells",
     "quality",
     "document",
+    "fem",
     "drawing",
     "plot",
     "steps",

@@ -20,7 +20,7 @@ macro_rules! page {
 }
 
 /// All pages, in reading order.
-pub static PAGES: [Page; 13] = [
+pub static PAGES: [Page; 14] = [
     page!("First steps", "first-steps.md"),
     page!("How it works", "how-it-works.md"),
     page!("Painting", "painting.md"),
@@ -29,6 +29,7 @@ pub static PAGES: [Page; 13] = [
     page!("Boundary", "boundary.md"),
     page!("Reading the mesh", "reading-the-mesh.md"),
     page!("Paths", "paths.md"),
+    page!("Solving", "solving.md"),
     page!("Files and export", "files.md"),
     page!("Command line", "command-line.md"),
     page!("The method", "method.md"),

@@ -67,9 +67,10 @@ pub struct SourceFile {
 }
 
 /// The folders of source, those of the packages that others depend on first.
-pub const SOURCES: [&str; 9] = [
+pub const SOURCES: [&str; 10] = [
     "crates/mesh/src",
     "crates/core/src",
+    "crates/fem/src",
     "crates/study/src",
     "crates/io/src",
     "crates/render/src",

@@ -42,6 +42,7 @@ pub struct FinishedMesh {
 }
 
 /// What a mesh was made from.
+#[derive(Clone)]
 pub struct MeshOrigin {
     /// The description of the mesh.
     pub spec: MeshSpec,
@@ -78,6 +79,19 @@ impl FinishedMesh {
             return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() });
         }
         Ok(Self { built, derived, origin, refinement, capped, ground: OnceLock::new() })
+    }
+
+    /// Returns the mesh with triangles bisected, and others only to keep it conforming, and its nodes on the
+    /// outline again.
+    ///
+    /// # Errors
+    /// Fails when a limit is reached.
+    pub fn bisected(&self, marked: &[TriangleId]) -> Result<Self, BuildError> {
+        let mut built = self.built.clone();
+        built.bisect(marked, &self.origin.spec.limits)?;
+        let targets = built.edge_targets(&self.origin.paint);
+        let derived = DerivedMesh::new(&built.mesh, &built.domain, targets, &self.origin.spec.cleaning);
+        Ok(Self::new(built, derived, self.origin.clone(), self.refinement, self.capped)?)
     }
 
     /// Returns the mesh with its size field.

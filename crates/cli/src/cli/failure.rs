@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use super::mesh_by_error_failure::MeshByErrorFailure;
 use meshbrush_core::build::BuildError;
 use meshbrush_core::field::TransferError;
 use meshbrush_core::layers::NoDepth;
@@ -31,6 +32,9 @@ pub enum Failure {
     /// There is no path.
     #[error(transparent)]
     Path(#[from] PathError),
+    /// There is no solution.
+    #[error(transparent)]
+    Solve(#[from] MeshByErrorFailure),
     /// A file could not be written.
     #[error("{} cannot be written: {problem}.", abridged(&file.display().to_string()))]
     Write {

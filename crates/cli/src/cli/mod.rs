@@ -24,6 +24,7 @@ mod locate;
 #[cfg(feature = "man")]
 mod man;
 mod mesh;
+pub mod mesh_by_error_failure;
 mod opened_file;
 mod options;
 pub mod output;
@@ -33,6 +34,7 @@ mod partition;
 mod path;
 mod path_proof;
 mod points;
+mod problem;
 pub mod quality;
 mod quantities;
 mod recipe;
@@ -43,6 +45,8 @@ pub mod requested_files;
 mod run_clock;
 pub mod schism_files;
 mod sequence;
+mod solve;
+pub mod solved_mesh;
 mod space_look;
 mod standard_output;
 pub mod summary;
@@ -134,6 +138,7 @@ fn run_command(
         (Some(Command::Check(typed)), _) => check::run(&typed, line, &mut out, terminal),
         (Some(Command::Why(typed)), _) => why::run(&typed, &mut out, terminal),
         (Some(Command::Path(typed)), _) => path::run(&typed, line, &mut out, terminal),
+        (Some(Command::Solve(typed)), _) => solve::run(&typed, line, &mut out, terminal),
         (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
         (Some(Command::Report(typed)), _) => report::run(&typed, &mut out, terminal),
         (Some(Command::Thumbnail(typed)), _) => thumbnail::write(&typed, terminal),
@@ -169,6 +174,6 @@ fn run_command(
 fn without_window() -> Failure {
     let problem = "This meshbrush was built without its window (feature `gui`). Its commands are `mesh`,";
     Failure::Usage(format!(
-        "{problem} `check`, `locate`, `why`, `path`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
+        "{problem} `check`, `locate`, `why`, `path`, `solve`, `recipe`, `replay` and `report`; `meshbrush --help` lists them."
     ))
 }

@@ -4,10 +4,11 @@ use super::approximation::Approximation;
 use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{RefinementRule, VertexRule};
-use crate::geometry::GridError;
+use crate::geometry::{GridError, LatticePoint, NumberSet};
 use crate::layers::{InvalidLayer, LayerCheck, LevelCachePool, PaintLayers, SizeField};
 use crate::mesh::{
-    BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
+    BlockRefiner, CoarseError, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, Refiner,
+    TriangleId,
 };
 use crate::outline::EdgeTargets;
 use crate::surface::{SurfaceRule, SurfaceSamples};
@@ -372,6 +373,28 @@ impl BuiltMesh {
     pub fn criterion<'a>(&'a self, paint: Option<&'a PaintLayers>) -> RefinementCriterion<'a> {
         RefinementCriterion::new(&self.domain, &self.field, self.rule, paint)
             .with_surface(self.surface.as_deref())
+    }
+
+    /// Bisects triangles, and others only to keep the mesh conforming. The result does not depend on the
+    /// order in which they are given.
+    ///
+    /// # Errors
+    /// Fails when a limit is reached; the mesh is then refined in part.
+    pub fn bisect(&mut self, marked: &[TriangleId], limits: &Limits) -> Result<(), RefineError> {
+        let key = |corners: [LatticePoint; 3], level: u32| {
+            let sum = |of: fn(&LatticePoint) -> u32| corners.iter().map(|corner| u64::from(of(corner))).sum();
+            let (x, y): (u64, u64) = (sum(|corner| corner.x), sum(|corner| corner.y));
+            (x, y, level)
+        };
+        let marked = marked.iter().map(|&id| key(self.mesh.corners(id), self.mesh.triangle(id).level()));
+        let marked: NumberSet<(u64, u64, u32)> = marked.collect();
+        let exceeds = |element: &Element| marked.contains(&key(element.corners, element.triangle.level()));
+        self.mesh.refine(limits, exceeds).map_err(|error| error.map_rule(|never| match never {}))?;
+        if self.domain.is_fitted() {
+            let (domain, all) = (&self.domain, self.mesh.raw_triangle_count());
+            self.mesh.classify(0..all, |element| domain.excludes(element));
+        }
+        Ok(())
     }
 
     /// Returns the triangles whose diameter exceeds their target, for the paint that the mesh was made with.

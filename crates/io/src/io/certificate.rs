@@ -1,5 +1,5 @@
-//! Certificates: what proves the lower bounds of paths, and which bisections of a mesh an error forces, as
-//! numbers that other programs can check.
+//! Certificates: what proves the lower bounds of paths and the bounds of solutions, and which bisections of a
+//! mesh an error forces, as numbers that other programs can check.
 
 use std::io::{self, Write};
 
@@ -12,6 +12,7 @@ use meshbrush_core::domain::{Domain, Polygon};
 use meshbrush_core::explain::{Bisections, Witness};
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{DualFunction, LegProof};
+use meshbrush_fem::fem::BoundProof;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint};
 use meshbrush_mesh::mesh::TreeTriangle;
 
@@ -71,6 +72,51 @@ pub fn write_mesh(
 ) -> io::Result<()> {
     serde_json::to_writer(&mut *out, &MeshFile::new(bisections, lattice, provenance))?;
     writeln!(out)
+}
+
+/// What the numbers of a solution prove, for a reader of the file.
+const ABOUT_SOLUTION: &str = "-div(a grad u) = f with u given on the boundary, linear along each of its edges; a and \
+    f are numbers in each triangle. v is continuous and linear in each triangle, with a value at each node. out[t][k] \
+    flows out of triangle t through the edge opposite its corner k: that is a flux s, linear in each triangle, with \
+    div s = f but for rounding. So the root of the integral of a |grad(u - v)|^2 is at most that of |s + a grad v|^2 \
+    / a, plus what rounding leaves of f - div s times the width of the domain / pi, and both are at most bound.";
+
+/// Writes what proves the bound of a solution, as JSON. Numbers have all digits.
+///
+/// # Errors
+/// Fails with the errors of `out`.
+pub fn write_solution(out: &mut dyn Write, proof: &BoundProof, provenance: &Provenance) -> io::Result<()> {
+    let BoundProof { nodes, triangles, diffusion, source, values, fluxes, bound } = proof;
+    let file = SolutionFile {
+        format: "Meshbrush solution certificate",
+        version: 1,
+        about: ABOUT_SOLUTION,
+        origin: origin(provenance),
+        bound: *bound,
+        nodes,
+        triangles,
+        a: diffusion,
+        f: source,
+        v: values,
+        out: fluxes,
+    };
+    serde_json::to_writer(&mut *out, &file)?;
+    writeln!(out)
+}
+
+#[derive(Serialize)]
+struct SolutionFile<'a> {
+    format: &'static str,
+    version: u32,
+    about: &'static str,
+    origin: serde_json::Map<String, serde_json::Value>,
+    bound: f64,
+    nodes: &'a [[f64; 2]],
+    triangles: &'a [[u32; 3]],
+    a: &'a [f64],
+    f: &'a [f64],
+    v: &'a [f64],
+    out: &'a [[f64; 3]],
 }
 
 type Corners = [[u32; 2]; 3];

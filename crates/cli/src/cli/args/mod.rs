@@ -15,6 +15,7 @@ mod path;
 mod picture;
 mod quantities;
 mod query;
+mod solve;
 mod space;
 mod surface;
 mod water;
@@ -38,6 +39,7 @@ pub use path::PathArguments;
 pub use picture::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 pub use quantities::QuantityArguments;
 pub use query::{CheckArguments, LocateArguments, WhyArguments};
+pub use solve::{ProblemArguments, SolveArguments};
 pub use space::{PictureView, SpaceArguments};
 
 use help::file_help;
@@ -110,6 +112,13 @@ pub enum Command {
     /// formula. No path costs less than the lower bound that is printed.
     #[command(after_help = PATH_EXAMPLES)]
     Path(PathArguments),
+    /// Build a mesh, solve −∇·(a∇u) + b·∇u + c u = f on it by linear finite elements, and bound the error
+    ///
+    /// Lengths are world units; on the Earth, metres on the ellipsoid, with b along x and y of the plane. The
+    /// bound is one of the energy error: the root of the integral of a |∇e|² + c e². Without convection it is
+    /// proved, unless data vary in a way that the answer names.
+    #[command(after_help = SOLVE_EXAMPLES)]
+    Solve(SolveArguments),
     /// Write a project as a recipe, with the files that it names beside it
     ///
     /// The recipe gives the mesh of the project. Existing files are replaced.
@@ -165,6 +174,13 @@ const WHY_EXAMPLES: &str = "\
 Examples:
   meshbrush why 0.48,0.52 --spacing 0.1 --target '0.01 + 0.2*hypot(x - 0.5, y - 0.5)'
   meshbrush why 2.5,1 --project coast.meshbrush --json";
+
+const SOLVE_EXAMPLES: &str = "\
+Examples:
+  meshbrush solve --spacing 0.1 --target 0.02 --source 1 --dirichlet all=0 -o u.vtu
+  meshbrush solve --spacing 0.1 --target 0.03 --diffusion 'if(x<0.5, 1, 100)' --dirichlet 'open west=0' --neumann 'open east=1' --json
+  meshbrush solve --spacing 0.1 --source 1 --dirichlet all=0 --within 0.01 --json
+  meshbrush solve harbour.toml --reaction 0.5 -o u.vtu";
 
 const PATH_EXAMPLES: &str = "\
 Examples:

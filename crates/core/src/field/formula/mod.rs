@@ -168,7 +168,7 @@ impl Formula {
 
     /// Returns bounds of the derivatives along x and y over a closed rectangle in world units. `None` where
     /// the formula may jump, or a derivative is not known.
-    pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
+    pub fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
         self.slopes(rect).map(|(along, _)| along)
     }
 
@@ -176,6 +176,31 @@ impl Formula {
     /// largest slope in any direction; `None` where the formula may jump, or one of them is not known.
     pub(crate) fn slopes(&self, rect: &Rect) -> Option<([Bounds; 2], f64)> {
         if self.uses_depth() { None } else { derivatives::slopes(&self.program, rect) }
+    }
+
+    /// Returns a polynomial of degree 2 near [`Self::eval`] over a closed rectangle in world units, and a
+    /// bound of the distance from it: the coefficients of 1, u, v, u², uv and v², where u and v run from −1
+    /// to 1. `None` where no bound is known.
+    ///
+    /// ```
+    /// use glam::dvec2;
+    /// use meshbrush_core::field::Formula;
+    /// use meshbrush_mesh::geometry::Rect;
+    ///
+    /// let rect = Rect::new(dvec2(1.0, 0.0), dvec2(1.5, 0.5));
+    /// let (coefficients, distance) = Formula::parse("x*y")?.quadratic(&rect).expect("it is smooth");
+    /// assert_eq!(coefficients, [0.3125, 0.0625, 0.3125, 0.0, 0.0625, 0.0]);
+    /// assert!(distance < 1e-14);
+    /// # Ok::<(), meshbrush_core::field::formula::ParseError>(())
+    /// ```
+    pub fn quadratic(&self, rect: &Rect) -> Option<([f64; 6], f64)> {
+        let (middle, half) = (rect.center(), 0.5 * rect.size());
+        let coordinate = |axis: usize| {
+            let rounding = 4.0 * f64::EPSILON * (middle[axis].abs() + half[axis]);
+            TaylorModel::coordinate(axis, middle[axis], half[axis], rounding)
+        };
+        let model = self.model([coordinate(0), coordinate(1)]);
+        model.remainder().is_finite().then(|| (model.coefficients(), model.remainder()))
     }
 
     /// Returns a model of [`Self::eval`] over a rectangle, from models of the coordinates.

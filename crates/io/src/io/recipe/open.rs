@@ -42,5 +42,9 @@ fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item 
         "The window keeps all parts of a mesh that is not fitted to an outline: `parts` is left out."
             .to_owned()
     });
-    parts.into_iter()
+    let problem = (!recipe.settings.problem.is_empty()).then(|| {
+        "The window solves no problem, and a project holds none: `[problem]` is left out. `meshbrush solve` reads it."
+            .to_owned()
+    });
+    parts.into_iter().chain(problem)
 }

@@ -15,8 +15,19 @@ const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the to
 
 /// Returns the text of a recipe.
 pub fn to_text(recipe: &SavedSettings) -> String {
-    let SavedSettings { domain, mesh, limits, layer, paths, keep_out, line, pins, output, lengths: _ } =
-        recipe;
+    let SavedSettings {
+        domain,
+        mesh,
+        limits,
+        layer,
+        paths,
+        keep_out,
+        line,
+        problem,
+        pins,
+        output,
+        lengths: _,
+    } = recipe;
     let mut text = HEADER.to_owned();
     write_table(&mut text, "[domain]", domain);
     write_table(&mut text, "[mesh]", mesh);
@@ -32,6 +43,7 @@ pub fn to_text(recipe: &SavedSettings) -> String {
     write_table(&mut text, "[paths]", paths);
     keep_out.iter().for_each(|region| write_table(&mut text, "[[keep_out]]", region));
     line.iter().for_each(|line| write_table(&mut text, "[[line]]", line));
+    write_table(&mut text, "[problem]", problem);
     write_table(&mut text, "[pins]", pins);
     output.iter().for_each(|output| write_table(&mut text, "[[output]]", output));
     text

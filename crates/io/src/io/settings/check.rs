@@ -39,6 +39,8 @@ impl<L> SavedSettings<L> {
         for (index, line) in self.line.iter().enumerate() {
             line.check().map_err(|fault| fault.within(index).within("line"))?;
         }
+        self.problem.problem().map_err(in_table("problem"))?;
+        self.problem.solution().map_err(in_table("problem"))?;
         self.pins.points().map_err(in_table("pins"))?;
         Ok(())
     }

@@ -12,7 +12,9 @@ mod load;
 mod of_settings;
 mod opening;
 mod overrides;
+mod parts;
 mod paths;
+mod problem;
 mod tables;
 mod weirs;
 mod words;
@@ -20,9 +22,11 @@ mod words;
 pub use cut_off::{SavedRing, written_ring};
 pub use load::{LoadingDefaults, ReadRegion, RegionCoordinates, Storage};
 pub use opening::{SavedOpen, SavedOpenings};
+pub use parts::SavedParts;
+pub use problem::{SavedFormula, SavedProblem};
 pub use tables::{
-    SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedOutput, SavedParts, SavedPaths,
-    SavedPins, SavedQuantityGrid, SavedSettings, SavedTreatment,
+    SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedOutput, SavedPaths, SavedPins,
+    SavedQuantityGrid, SavedSettings, SavedTreatment,
 };
 pub use weirs::{SavedCrest, SavedLineType};
 pub use words::{

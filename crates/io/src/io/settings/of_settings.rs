@@ -1,8 +1,8 @@
 use glam::DVec2;
 
 use super::{
-    SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedPaths, SavedPins, SavedSettings,
-    SavedTreatment, SavedUnit, saved_marks,
+    SavedDomain, SavedKeepOut, SavedLimits, SavedLine, SavedMesh, SavedPaths, SavedPins, SavedProblem,
+    SavedSettings, SavedTreatment, SavedUnit, saved_marks,
 };
 use crate::io::lengths::WrittenLengths;
 use meshbrush_core::document::Settings;
@@ -42,6 +42,7 @@ impl<L> SavedSettings<L> {
             paths: SavedPaths::of(&settings.paths),
             keep_out,
             line: settings.lines.iter().map(SavedLine::of).collect(),
+            problem: SavedProblem::default(),
             pins: SavedPins { at: settings.pins.iter().map(DVec2::to_array).collect() },
             output: Vec::new(),
             lengths: WrittenLengths::default(),

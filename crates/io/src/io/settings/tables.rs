@@ -3,15 +3,14 @@
 use std::ops::Not;
 use std::path::PathBuf;
 
-use serde::de::{Deserializer, Error, Visitor};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use super::{
-    SavedCrest, SavedLineType, SavedName, SavedOpenings, SavedPieceType, SavedRing, SavedRule, SavedUnit,
+    SavedCrest, SavedLineType, SavedName, SavedOpenings, SavedParts, SavedPieceType, SavedProblem, SavedRing,
+    SavedRule, SavedUnit,
 };
 use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
 use crate::io::lengths::{GroundArea, GroundLength, METRES, SavedLength, WrittenLengths};
-use meshbrush_mesh::mesh::KeptParts;
 
 /// All tables. `L` is a layer, with what says where its data are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +33,9 @@ pub struct SavedSettings<L = SavedLayer> {
     /// Lines along which the mesh has edges.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub line: Vec<SavedLine>,
+    /// What `meshbrush solve` solves on the mesh.
+    #[serde(skip_serializing_if = "is_default")]
+    pub problem: SavedProblem,
     /// Points whose triangles and values the window follows.
     #[serde(skip_serializing_if = "is_default")]
     pub pins: SavedPins,
@@ -55,6 +57,7 @@ impl<L> Default for SavedSettings<L> {
             paths: SavedPaths::default(),
             keep_out: Vec::new(),
             line: Vec::new(),
+            problem: SavedProblem::default(),
             pins: SavedPins::default(),
             output: Vec::new(),
             lengths: WrittenLengths::default(),
@@ -68,9 +71,22 @@ impl<L> SavedSettings<L> {
         self,
         of_layers: impl FnOnce(Vec<L>) -> Result<Vec<M>, E>,
     ) -> Result<SavedSettings<M>, E> {
-        let Self { domain, mesh, limits, layer, paths, keep_out, line, pins, output, lengths } = self;
+        let Self { domain, mesh, limits, layer, paths, keep_out, line, problem, pins, output, lengths } =
+            self;
         let layer = of_layers(layer)?;
-        Ok(SavedSettings { domain, mesh, limits, layer, paths, keep_out, line, pins, output, lengths })
+        Ok(SavedSettings {
+            domain,
+            mesh,
+            limits,
+            layer,
+            paths,
+            keep_out,
+            line,
+            problem,
+            pins,
+            output,
+            lengths,
+        })
     }
 }
 
@@ -374,77 +390,4 @@ pub enum SavedTreatment {
     Fitted,
     /// With nodes on the outline.
     Outline,
-}
-
-/// The parts of the mesh that stay.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SavedParts {
-    /// `"all"`
-    All,
-    /// `"largest"`
-    Largest,
-    /// A share of the area.
-    Share(f64),
-}
-
-impl From<KeptParts> for SavedParts {
-    fn from(parts: KeptParts) -> Self {
-        match parts {
-            KeptParts::All => Self::All,
-            KeptParts::Largest => Self::Largest,
-            KeptParts::Share(share) => Self::Share(share),
-        }
-    }
-}
-
-impl From<SavedParts> for KeptParts {
-    fn from(saved: SavedParts) -> Self {
-        match saved {
-            SavedParts::All => Self::All,
-            SavedParts::Largest => Self::Largest,
-            SavedParts::Share(share) => Self::Share(share),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for SavedParts {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(PartsVisitor)
-    }
-}
-
-impl Serialize for SavedParts {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match *self {
-            Self::All => to.serialize_str("all"),
-            Self::Largest => to.serialize_str("largest"),
-            Self::Share(share) => to.serialize_f64(share),
-        }
-    }
-}
-
-struct PartsVisitor;
-
-impl Visitor<'_> for PartsVisitor {
-    type Value = SavedParts;
-
-    fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str("\"largest\", \"all\" or a share of the area such as 0.01")
-    }
-
-    fn visit_str<E: Error>(self, word: &str) -> Result<SavedParts, E> {
-        match word {
-            "all" => Ok(SavedParts::All),
-            "largest" => Ok(SavedParts::Largest),
-            _ => Err(E::unknown_variant(word, &["largest", "all"])),
-        }
-    }
-
-    fn visit_f64<E: Error>(self, share: f64) -> Result<SavedParts, E> {
-        Ok(SavedParts::Share(share))
-    }
-
-    fn visit_i64<E: Error>(self, share: i64) -> Result<SavedParts, E> {
-        Ok(SavedParts::Share(share as f64))
-    }
 }

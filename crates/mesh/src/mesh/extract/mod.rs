@@ -4,6 +4,7 @@
 mod extract;
 mod boundary;
 mod curve;
+mod homes;
 mod patch;
 mod pieces;
 mod refined;
