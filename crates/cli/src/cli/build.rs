@@ -21,7 +21,10 @@ use meshbrush_core::layers::{
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::SurfaceFit;
 use meshbrush_io::io::{Cancelled, DocumentPlane, Meter};
-use meshbrush_mesh::mesh::{CoarseError, Extract, InvalidTarget, Mesh, Progress, TreeTriangle, TriangleId};
+use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::mesh::{
+    CoarseError, CurveOrder, Extract, InvalidTarget, Mesh, Progress, TreeTriangle, TriangleId,
+};
 use meshbrush_mesh::text::{Grouped, LengthUnit};
 
 /// Triangles visited between two updates of the progress line.
@@ -127,6 +130,21 @@ impl FinishedMesh {
     /// [`Self::extract`] with the numbers of the mesh: for where no number is told.
     pub fn extract_as_made(&self) -> Extract<'_> {
         self.derived.extract(self.mesh())
+    }
+
+    /// Returns for each node of [`Self::extract`] where bisection made it ([`Mesh::homes_with`]).
+    pub fn homes(&self) -> Vec<Option<LatticePoint>> {
+        self.curve_order().of_nodes(&self.mesh().homes_with(self.derived.patch()))
+    }
+
+    /// Returns for each triangle of [`Self::extract`] the one of the mesh that it is, or replaces
+    /// ([`Mesh::sources_with`]).
+    pub fn sources(&self) -> Vec<TriangleId> {
+        self.curve_order().of_triangles(&self.mesh().sources_with(self.derived.patch()))
+    }
+
+    fn curve_order(&self) -> CurveOrder {
+        self.extract_as_made().curve_order()
     }
 
     /// Returns the polygons that the mesh meets, if there are some: those of the domain, or the zero line of

@@ -35,8 +35,8 @@ impl SolvedMesh {
         exact: Option<&Formula>,
     ) -> Result<Self, FemError> {
         let conditions = problem.conditions_on(&finished.boundary(extract))?;
-        let homes = finished.mesh().homes_with(finished.derived.patch());
-        let mesh = FemMesh::new(extract, &homes, &PlaneMetric::of(finished.domain(), finished.unit()));
+        let mesh =
+            FemMesh::new(extract, &finished.homes(), &PlaneMetric::of(finished.domain(), finished.unit()));
         let solution = FemSolution::new(&mesh, problem, &conditions)?;
         let bound = ErrorBound::of(&mesh, problem, &solution);
         let error = exact.map(|exact| solution.error_from(&mesh, problem, exact)).transpose()?;
@@ -168,8 +168,7 @@ impl SolvedMesh {
 
     /// Returns the triangles to bisect, the worst first.
     fn marked(&self, finished: &FinishedMesh) -> Vec<TriangleId> {
-        let sources = finished.mesh().sources_with(finished.derived.patch());
-        self.bound.marked(&self.mesh, &sources, BULK)
+        self.bound.marked(&self.mesh, &finished.sources(), BULK)
     }
 
     /// Returns the next mesh, if there is one.
@@ -199,7 +198,7 @@ impl SolvedMesh {
                 break;
             }
             let next = finished.bisected(&marked)?;
-            if next.extract().triangles().len() <= most {
+            if next.extract_as_made().triangles().len() <= most {
                 return Ok(Some(next));
             }
             marked.truncate(marked.len() / 2);

@@ -8,6 +8,7 @@ mod random_coast;
 mod runs;
 mod solved;
 mod manufactured;
+mod jump;
 mod steps;
 mod same_bits;
 mod bad_input;

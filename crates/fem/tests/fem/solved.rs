@@ -1,7 +1,7 @@
 //! A problem, solved on a mesh as the program makes it.
 
 use glam::DVec2;
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, MeshBoundary};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, Line, MeshBoundary};
 use meshbrush_core::field::Formula;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_fem::fem::{
@@ -61,6 +61,18 @@ pub fn mesh_keeping(parts: KeptParts, domain: &Domain, spacing: f64, target: &st
     (mesh, extract.into_owned(), boundary)
 }
 
+/// Solves on a mesh of a rectangle with edges along lines.
+pub fn solve_with_lines(domain: &Domain, lines: &[Line], size: f64, problem: &FemProblem) -> Solved {
+    let built = formula_mesh(domain, size, BoundaryTreatment::Report, &format!("{size}"));
+    let on_lattice = built.domain.clone().with_lines(lines);
+    let derived = DerivedMesh::new(&built.mesh, &on_lattice, None, &Cleaning::NONE);
+    assert!(derived.line_fits().iter().all(|fit| fit.unresolved.is_empty()), "lines are on edges");
+    let extract = derived.extract(&built.mesh).into_owned();
+    let mesh = FemMesh::new(&extract, &built.mesh.homes_with(derived.patch()), &PlaneMetric::World);
+    let boundary = MeshBoundary::new(&extract, domain, &BoundaryMarks::default());
+    Solved::on(&mesh, extract, &boundary, problem).unwrap_or_else(|error| panic!("{error}"))
+}
+
 pub fn try_solve(
     domain: &Domain,
     spacing: f64,
@@ -68,10 +80,7 @@ pub fn try_solve(
     problem: &FemProblem,
 ) -> Result<Solved, FemError> {
     let (mesh, extract, boundary) = mesh_of(domain, spacing, target);
-    let conditions = problem.conditions_on(&boundary)?;
-    let solution = FemSolution::new(&mesh, problem, &conditions)?;
-    let values = mesh.values_in_extract(&solution.values);
-    Ok(Solved { extract, solution, values })
+    Solved::on(&mesh, extract, &boundary, problem)
 }
 
 pub fn solve(domain: &Domain, spacing: f64, target: &str, problem: &FemProblem) -> Solved {
@@ -79,6 +88,18 @@ pub fn solve(domain: &Domain, spacing: f64, target: &str, problem: &FemProblem) 
 }
 
 impl Solved {
+    fn on(
+        mesh: &FemMesh,
+        extract: Extract<'static>,
+        boundary: &MeshBoundary,
+        problem: &FemProblem,
+    ) -> Result<Self, FemError> {
+        let conditions = problem.conditions_on(boundary)?;
+        let solution = FemSolution::new(mesh, problem, &conditions)?;
+        let values = mesh.values_in_extract(&solution.values);
+        Ok(Self { extract, solution, values })
+    }
+
     /// Errors of u in L² and of its gradient, by a rule of degree 5 on four parts of each triangle.
     pub fn errors(&self, exact: impl Fn(DVec2) -> f64) -> [f64; 2] {
         let nodes: Vec<DVec2> = self.extract.world_nodes().collect();
