@@ -19,6 +19,7 @@ from .layers import Layer, Layers
 from .mesh import Located, Mesh, Place, Why
 from .paths import Path
 from .rasters import sample
+from .solution import Solution
 from .window import View
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "MeshbrushWarning",
     "Path",
     "Place",
+    "Solution",
     "View",
     "Why",
     "__version__",

@@ -117,6 +117,20 @@ class Mesh:
         within: float | None,
         watching: Any,
     ) -> tuple[npt.NDArray[np.float64], list[float], list[int], str | None]: ...
+    def solve(
+        self,
+        table: dict[str, Any],
+        within: float | None,
+        at_most: int | None,
+        watching: Any,
+    ) -> tuple[
+        Mesh | None,
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        tuple[float, float | None, float, int, bool],
+        list[str],
+        list[tuple[int, float]],
+    ]: ...
     def write(
         self,
         output: dict[str, Any],

@@ -21,7 +21,11 @@ from .mesh import Mesh, Why
 from .paths import Path
 from .progress import Progress, watching
 from .shapes import ShapesLike, as_path, each_shape, geojson
+from .solution import Solution
 from .window import View, edited, shown
+
+#: A formula in x and y, or a number.
+Formula = str | float
 
 #: The options by the table of a recipe that has them.
 _TABLES = {
@@ -266,6 +270,48 @@ class Document:
             points, figures, stops, note = mesh._core.path(places, weights, regions, within, watch)
         least, lower, upper, length, risk, highest = figures
         return Path(points, least, lower, upper, length, risk, highest, stops, note)
+
+    def solve(
+        self,
+        *,
+        diffusion: Formula = 1,
+        convection: tuple[Formula, Formula] | None = None,
+        reaction: Formula = 0,
+        source: Formula = 0,
+        dirichlet: Mapping[str, Formula] | None = None,
+        neumann: Mapping[str, Formula] | None = None,
+        robin: Mapping[str, tuple[Formula, Formula]] | None = None,
+        exact: Formula | None = None,
+        within: float | None = None,
+        at_most: int | None = None,
+        progress: Progress = None,
+        threads: int | None = None,
+    ) -> Solution:
+        """Solves −∇·(a∇u) + b·∇u + c u = f on the mesh by linear finite elements, and bounds the energy error.
+
+        Coefficients are numbers or formulas in x and y; conditions are by the name of a piece of the boundary, of which
+        "all" stands for those without one of their own: u (`dirichlet`), a ∂u/∂n (`neumann`), α and g of
+        a ∂u/∂n + α u = g (`robin`). Lengths are world units, or metres on the Earth. With `within`, triangles are
+        bisected until the bound of the energy error is at most that; with `at_most`, as long as there are no more. The
+        mesh of the document stays what it is.
+        """
+        table = {
+            "diffusion": diffusion,
+            "reaction": reaction,
+            "source": source,
+            "convection": None if convection is None else list(convection),
+            "dirichlet": dict(dirichlet or {}),
+            "neumann": dict(neumann or {}),
+            "robin": {name: list(pair) for name, pair in (robin or {}).items()},
+            "exact": exact,
+        }
+        table = {key: value for key, value in table.items() if value is not None}
+        mesh = self.mesh(threads=threads)
+        with watching(progress, threads) as watch:
+            other, u, bounds, figures, reasons, rounds = mesh._core.solve(table, within, at_most, watch)
+        bound, error, norm, steps, mean_is_zero = figures
+        solved = mesh if other is None else Mesh(other)
+        return Solution(solved, u, bound, bounds, reasons, error, norm, steps, mean_is_zero, rounds)
 
     def stroke(self, brush: Brush) -> Stroke:
         """Returns a stroke, for `with`: one edit, which an error undoes."""

@@ -14,6 +14,7 @@ mod locate;
 mod mesh;
 mod path;
 mod rules;
+mod solve;
 mod values;
 mod work;
 
