@@ -134,13 +134,10 @@ impl SavedSettings {
         settings.check_depth_unit().map_err(unsuited)?;
         // Without a domain of its own, the mesh covers all rasters.
         let has_frame = self.domain.bounds.is_some() || self.domain.outline_file().is_some();
-        let without_effect = notes(&settings, &files.paint, has_frame)
-            .into_iter()
-            .chain(far_places(&settings))
-            .chain(idle_cleaning(&self.domain, &settings))
-            .chain(idle.without_effect)
-            .chain(opened);
-        let without_effect: Vec<String> = without_effect.map(|note| abridged(&note)).collect();
+        let of_layers = notes(&settings, &files.paint, has_frame).into_iter();
+        let of_places = far_places(&settings).chain(idle_cleaning(&self.domain, &settings));
+        let all = of_layers.chain(of_places).chain(idle.without_effect).chain(opened);
+        let without_effect: Vec<String> = all.map(|note| abridged(&note)).collect();
         let in_degrees = places_in_degrees(self, &settings);
         let facts = [files.note, idle.assumed, in_degrees, no_open_boundary(&settings)];
         let facts = facts.into_iter().flatten().chain(files.notes).map(|note| abridged(&note));
