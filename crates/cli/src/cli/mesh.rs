@@ -46,7 +46,7 @@ pub fn run(
     let (finished, suited) = build_suited(&mut input, named, terminal)?;
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
-    let extract = if writes { finished.extract() } else { finished.extract_as_made() };
+    let extract = if wants_details { finished.extract() } else { finished.extract_as_made() };
     let coordinates = coordinates_in_files(typed, &files, &finished);
     let violations = match typed.checks {
         true => Some(report_violations(&finished, &extract, finished.max_level(), terminal)?),
