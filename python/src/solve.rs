@@ -53,6 +53,8 @@ impl Mesh {
         let (by_error, name) = found.map_err(|error| mesh_error(error.to_string()))?;
         let (finished, solved, rounds) = by_error.into_parts();
         let py = slf.py();
+        let of_mesh = finished.as_ref().unwrap_or(&slf.get().0.finished);
+        let [u, bounds] = [solved.values_in_files(of_mesh), solved.bounds_in_files(of_mesh)];
         let mesh = finished.map(|finished| Py::new(py, Mesh(Shared::new(finished, name)))).transpose()?;
         let (solution, bound) = (&solved.solution, &solved.bound);
         let norm = solution.energy_norm(&solved.mesh);
@@ -60,8 +62,8 @@ impl Mesh {
         let round = |round: ErrorRound| (round.triangles, round.energy_error_bound);
         Ok((
             mesh,
-            solved.mesh.values_in_extract(&solution.values).into_pyarray(py),
-            solved.mesh.triangles_in_extract(&bound.of_triangles).into_pyarray(py),
+            u.into_pyarray(py),
+            bounds.into_pyarray(py),
             figures,
             bound.doubts.iter().map(ToString::to_string).collect(),
             rounds.into_iter().map(round).collect(),

@@ -21,7 +21,6 @@ use meshbrush_core::layers::{
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::SurfaceFit;
 use meshbrush_io::io::{Cancelled, DocumentPlane, Meter};
-use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{
     CoarseError, CurveOrder, Extract, InvalidTarget, Mesh, Progress, TreeTriangle, TriangleId,
 };
@@ -132,18 +131,8 @@ impl FinishedMesh {
         self.derived.extract(self.mesh())
     }
 
-    /// Returns for each node of [`Self::extract`] where bisection made it ([`Mesh::homes_with`]).
-    pub fn homes(&self) -> Vec<Option<LatticePoint>> {
-        self.curve_order().of_nodes(&self.mesh().homes_with(self.derived.patch()))
-    }
-
-    /// Returns for each triangle of [`Self::extract`] the one of the mesh that it is, or replaces
-    /// ([`Mesh::sources_with`]).
-    pub fn sources(&self) -> Vec<TriangleId> {
-        self.curve_order().of_triangles(&self.mesh().sources_with(self.derived.patch()))
-    }
-
-    fn curve_order(&self) -> CurveOrder {
+    /// Returns the order of [`Self::extract`] in numbers of [`Self::extract_as_made`].
+    pub fn curve_order(&self) -> CurveOrder {
         self.extract_as_made().curve_order()
     }
 

@@ -117,7 +117,7 @@ fn write(
     solved: &SolvedMesh,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let values = solved.mesh.values_in_extract(&solved.solution.values);
+    let values = solved.values_in_files(exported.finished);
     let values = vec![NodeValues { name: SOLUTION.into(), values }];
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     let (meter, mut notes) = (interruption.meter(), Vec::new());

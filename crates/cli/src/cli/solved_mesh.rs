@@ -24,23 +24,33 @@ pub struct SolvedMesh {
 }
 
 impl SolvedMesh {
-    /// Solves a problem.
+    /// Solves a problem. `extract` is [`FinishedMesh::extract_as_made`].
     ///
     /// # Errors
     /// Fails when it has no solution.
-    pub fn of(
+    fn of(
         finished: &FinishedMesh,
         extract: &Extract,
         problem: &FemProblem,
         exact: Option<&Formula>,
     ) -> Result<Self, FemError> {
         let conditions = problem.conditions_on(&finished.boundary(extract))?;
-        let mesh =
-            FemMesh::new(extract, &finished.homes(), &PlaneMetric::of(finished.domain(), finished.unit()));
+        let homes = finished.mesh().homes_with(finished.derived.patch());
+        let mesh = FemMesh::new(extract, &homes, &PlaneMetric::of(finished.domain(), finished.unit()));
         let solution = FemSolution::new(&mesh, problem, &conditions)?;
         let bound = ErrorBound::of(&mesh, problem, &solution);
         let error = exact.map(|exact| solution.error_from(&mesh, problem, exact)).transpose()?;
         Ok(Self { mesh, solution, bound, error })
+    }
+
+    /// Returns u at the nodes of [`FinishedMesh::extract`].
+    pub fn values_in_files(&self, finished: &FinishedMesh) -> Vec<f64> {
+        finished.curve_order().of_nodes(&self.mesh.values_in_extract(&self.solution.values))
+    }
+
+    /// Returns the part of the bound of each triangle of [`FinishedMesh::extract`].
+    pub fn bounds_in_files(&self, finished: &FinishedMesh) -> Vec<f64> {
+        finished.curve_order().of_triangles(&self.mesh.triangles_in_extract(&self.bound.of_triangles))
     }
 
     /// Returns what a person should know, a sentence each.
@@ -130,7 +140,7 @@ impl MeshByError {
         let mut rounds = Vec::new();
         loop {
             let current = finished.as_ref().unwrap_or(document);
-            let extract = current.extract();
+            let extract = current.extract_as_made();
             if !goes_on(extract.triangles().len()) {
                 return Err(MeshByErrorFailure::Cancelled);
             }
@@ -168,7 +178,8 @@ impl SolvedMesh {
 
     /// Returns the triangles to bisect, the worst first.
     fn marked(&self, finished: &FinishedMesh) -> Vec<TriangleId> {
-        self.bound.marked(&self.mesh, &finished.sources(), BULK)
+        let sources = finished.mesh().sources_with(finished.derived.patch());
+        self.bound.marked(&self.mesh, &sources, BULK)
     }
 
     /// Returns the next mesh, if there is one.

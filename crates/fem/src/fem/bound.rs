@@ -17,14 +17,14 @@ use rayon::prelude::*;
 
 use super::doubt::{Doubt, Doubts};
 use super::element::{ElementData, ElementShape};
-use super::fem_mesh::{FemMesh, NONE};
+use super::fem_mesh::{EdgeNumbers, FemMesh, NONE};
 use super::flux::Fluxes;
 use super::matrix::sum_of;
 use super::problem::{FemProblem, Values};
 use super::solution::FemSolution;
 use super::source_range::SourceRange;
 use super::transport::Transport;
-use crate::geometry::{NumberMap, Rect};
+use crate::geometry::Rect;
 
 /// A bound of the energy error of a solution.
 #[derive(Clone, Debug)]
@@ -47,16 +47,15 @@ pub struct ErrorBound {
 impl ErrorBound {
     /// Bounds the energy error of a solution of a problem on the same mesh.
     pub fn of(mesh: &FemMesh, problem: &FemProblem, solution: &FemSolution) -> Self {
-        let fluxes = Fluxes::of(mesh, solution);
-        let edges = mesh.edges.iter().enumerate();
-        let edge_at = edges.map(|(n, edge)| ((edge.triangle, edge.opposite as u32), n)).collect();
+        let edge_at = mesh.edge_numbers();
+        let fluxes = Fluxes::of(mesh, solution, &edge_at);
         let parts = BoundParts {
             mesh,
             solution,
             fluxes: &fluxes,
             diffusion: Values::of(&problem.diffusion),
             source: SourceRange::of(&problem.source),
-            edge_at,
+            edge_at: &edge_at,
         };
         let terms: Vec<Term> =
             (0..mesh.triangle_count()).into_par_iter().map(|triangle| parts.term(triangle)).collect();
@@ -95,7 +94,7 @@ struct BoundParts<'a> {
     fluxes: &'a Fluxes,
     diffusion: Values<'a>,
     source: SourceRange<'a>,
-    edge_at: NumberMap<(u32, u32), usize>,
+    edge_at: &'a EdgeNumbers,
 }
 
 /// What a triangle adds.

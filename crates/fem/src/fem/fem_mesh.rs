@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::plane_metric::PlaneMetric;
-use crate::geometry::{LatticePoint, interleaved};
+use crate::geometry::{LatticePoint, NumberMap, interleaved};
 use crate::mesh::Extract;
 
 /// No triangle or node.
@@ -52,6 +52,9 @@ pub(crate) struct FemEdge {
     pub length: f64,
 }
 
+/// The place in [`FemMesh::edges`] of a boundary edge, by its triangle and the corner that is not on it.
+pub(crate) type EdgeNumbers = NumberMap<(u32, u32), usize>;
+
 impl FemMesh {
     /// Numbers the nodes and triangles of an extract. `homes` are the places where bisection made its nodes
     /// ([`Mesh::homes_with`](crate::mesh::Mesh::homes_with)).
@@ -91,6 +94,12 @@ impl FemMesh {
         mesh.find_edges(extract);
         mesh.find_fans();
         mesh
+    }
+
+    /// Returns where each boundary edge stands among [`Self::edges`].
+    pub(crate) fn edge_numbers(&self) -> EdgeNumbers {
+        let edges = self.edges.iter().enumerate();
+        edges.map(|(n, edge)| ((edge.triangle, edge.opposite as u32), n)).collect()
     }
 
     /// Returns how many nodes there are.

@@ -10,9 +10,8 @@ use rayon::prelude::*;
 
 use super::boundary_data::EdgeData;
 use super::element::{ElementData, ElementShape};
-use super::fem_mesh::{FemEdge, FemMesh, NONE};
+use super::fem_mesh::{EdgeNumbers, FemEdge, FemMesh, NONE};
 use super::solution::FemSolution;
-use crate::geometry::NumberMap;
 
 /// The flux through the edges of each triangle.
 #[derive(Clone, Debug)]
@@ -30,14 +29,12 @@ type Spokes = [f64; 2];
 struct Equilibration<'a> {
     mesh: &'a FemMesh,
     solution: &'a FemSolution,
-    edge_at: NumberMap<(u32, u32), usize>,
+    edge_at: &'a EdgeNumbers,
 }
 
 impl Fluxes {
     /// Equilibrates the flux −a∇u of a solution.
-    pub fn of(mesh: &FemMesh, solution: &FemSolution) -> Self {
-        let edges = mesh.edges.iter().enumerate();
-        let edge_at = edges.map(|(n, edge)| ((edge.triangle, edge.opposite as u32), n)).collect();
+    pub fn of(mesh: &FemMesh, solution: &FemSolution, edge_at: &EdgeNumbers) -> Self {
         let equilibration = Equilibration { mesh, solution, edge_at };
         let of_nodes: Vec<(Vec<Spokes>, bool)> =
             (0..mesh.node_count()).into_par_iter().map(|node| equilibration.at(node)).collect();

@@ -95,8 +95,9 @@ impl Extract<'_> {
             corners.sort_unstable();
             corners
         };
+        let place = |[high, low, _]: &[u32; 3]| u64::from(*high) << 32 | u64::from(*low);
         placed.par_sort_unstable_by(|a, b| {
-            a[..2].cmp(&b[..2]).then_with(|| sorted_corners(a[2]).cmp(&sorted_corners(b[2])))
+            place(a).cmp(&place(b)).then_with(|| sorted_corners(a[2]).cmp(&sorted_corners(b[2])))
         });
         placed.into_iter().map(|[_, _, number]| number).collect()
     }
