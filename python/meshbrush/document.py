@@ -193,8 +193,8 @@ class Document:
 
         It is that of `meshbrush mesh` for the same document, with the same fingerprint. After `update` it is the mesh
         that follows the document, with the numbers of one that is made from scratch, which `fresh` asks for. Nodes
-        and triangles are numbered along a curve through the domain: neighbours have near numbers. `progress` is True, or a function of the stage and of what is done. Ctrl+C ends the work, and
-        leaves the document as it was.
+        and triangles are numbered along a curve through the domain: neighbours have near numbers. `progress` is True,
+        or a function of the stage and of what is done. Ctrl+C ends the work, and leaves the document as it was.
         """
         with watching(progress, threads) as watch:
             revision = self._core.revision()

@@ -4,13 +4,13 @@ use super::approximation::Approximation;
 use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{RefinementRule, VertexRule};
-use crate::geometry::{GridError, LatticePoint, NumberSet};
+use crate::geometry::{GridError, NumberSet};
 use crate::layers::{InvalidLayer, LayerCheck, LevelCachePool, PaintLayers, SizeField};
 use crate::mesh::{
     BlockRefiner, CoarseError, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, Refiner,
     TriangleId,
 };
-use crate::outline::EdgeTargets;
+use crate::outline::{EdgeTargets, PlaceKey, triangle_place};
 use crate::surface::{SurfaceRule, SurfaceSamples};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
@@ -381,14 +381,9 @@ impl BuiltMesh {
     /// # Errors
     /// Fails when a limit is reached; the mesh is then refined in part.
     pub fn bisect(&mut self, marked: &[TriangleId], limits: &Limits) -> Result<(), RefineError> {
-        let key = |corners: [LatticePoint; 3], level: u32| {
-            let sum = |of: fn(&LatticePoint) -> u32| corners.iter().map(|corner| u64::from(of(corner))).sum();
-            let (x, y): (u64, u64) = (sum(|corner| corner.x), sum(|corner| corner.y));
-            (x, y, level)
-        };
-        let marked = marked.iter().map(|&id| key(self.mesh.corners(id), self.mesh.triangle(id).level()));
-        let marked: NumberSet<(u64, u64, u32)> = marked.collect();
-        let exceeds = |element: &Element| marked.contains(&key(element.corners, element.triangle.level()));
+        let marked: NumberSet<PlaceKey> =
+            marked.iter().map(|&id| triangle_place(self.mesh.corners(id))).collect();
+        let exceeds = |element: &Element| marked.contains(&triangle_place(element.corners));
         self.mesh.refine(limits, exceeds).map_err(|error| error.map_rule(|never| match never {}))?;
         if self.domain.is_fitted() {
             let (domain, all) = (&self.domain, self.mesh.raw_triangle_count());

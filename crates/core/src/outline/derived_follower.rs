@@ -58,15 +58,7 @@ impl DerivedFollower {
         let regions = [&self.domain, domain].map(|domain| domain.region_on_outline());
         let lines = [&self.domain, domain].map(|domain| domain.lines());
         let improves = cleaning.improves_boundary && domain.region_on_outline().is_some();
-        let is_same_region = match regions {
-            [Some(a), Some(b)] => std::ptr::eq(a, b),
-            [a, b] => a.is_none() && b.is_none(),
-        };
-        let has_same_lines = match lines {
-            [Some(a), Some(b)] => std::ptr::eq(a, b),
-            [a, b] => a.is_none() && b.is_none(),
-        };
-        is_same_region && has_same_lines && improves == self.better.is_some() && Self::can_follow(domain)
+        are_same(regions) && are_same(lines) && improves == self.better.is_some() && Self::can_follow(domain)
     }
 
     /// Takes in what changed in the mesh, and where targets may have changed, and returns the entries whose
@@ -126,6 +118,12 @@ impl DerivedFollower {
     pub fn outline(&self) -> Option<&OutlineFollower> {
         self.outline.as_ref()
     }
+}
+
+/// Returns whether two are one and the same, or neither is there.
+fn are_same<T>(both: [Option<&T>; 2]) -> bool {
+    let [a, b] = both.map(|one| one.map(std::ptr::from_ref));
+    a == b
 }
 
 /// The triangles of a mesh with nodes on an outline.

@@ -73,4 +73,5 @@ pub use deriving::MeshDerivation;
 pub use follower::OutlineFollower;
 pub use lengths::{EdgeTargets, SharedTargets};
 pub use lines::{LineEdge, LineEdges, LineFit, LineProblem, UnresolvedPlace, WeirEdges};
+pub(crate) use places::{PlaceKey, triangle_place};
 pub use stages::{DerivationAction, DerivationStage, derivation_stages};

@@ -6,7 +6,7 @@ use std::fmt;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::io::{KeyFault, Number};
+use crate::io::{KeyFault, KeyStep, Number};
 use meshbrush_core::field::Formula;
 use meshbrush_fem::fem::{BoundaryCondition, FemProblem, NamedCondition};
 
@@ -45,7 +45,7 @@ pub struct SavedProblem {
 pub struct SavedFormula(pub String);
 
 impl SavedFormula {
-    fn parsed(&self, key: &'static str) -> Result<Formula, KeyFault> {
+    fn parsed(&self, key: impl Into<KeyStep>) -> Result<Formula, KeyFault> {
         Formula::parse(&self.0).map_err(|mistake| KeyFault::mistake(key, &self.0, 0, &mistake))
     }
 }
@@ -89,17 +89,10 @@ impl SavedProblem {
         let parsed = |formula: &Option<SavedFormula>, key, default: Formula| {
             formula.as_ref().map_or(Ok(default), |formula| formula.parsed(key))
         };
-        let along = |formulas: &[SavedFormula; 2]| -> Result<[Formula; 2], KeyFault> {
-            let read = |n: usize| {
-                let text = &formulas[n].0;
-                Formula::parse(text).map_err(|mistake| KeyFault::mistake(n, text, 0, &mistake))
-            };
-            Ok([read(0)?, read(1)?])
-        };
+        let along = |formulas: &[SavedFormula; 2]| Ok([formulas[0].parsed(0)?, formulas[1].parsed(1)?]);
         let mut conditions = Vec::new();
-        let read = |name: &str, text: &SavedFormula, kind: &'static str| {
-            Formula::parse(&text.0)
-                .map_err(|mistake| KeyFault::mistake(name.to_owned(), &text.0, 0, &mistake).within(kind))
+        let read = |name: &String, formula: &SavedFormula, kind: &'static str| {
+            formula.parsed(name.clone()).map_err(|fault| fault.within(kind))
         };
         for (name, value) in &self.dirichlet {
             let condition = BoundaryCondition::Dirichlet(read(name, value, "dirichlet")?);
