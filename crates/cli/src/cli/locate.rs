@@ -16,7 +16,7 @@ use super::terminal::Terminal;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::located::LocatedIn;
 use meshbrush_io::io::points::{self, PointTable};
-use meshbrush_io::io::{Interruption, write_file_metered};
+use meshbrush_io::io::write_file_metered;
 use meshbrush_mesh::mesh::Extract;
 
 /// Runs the command. `out` is standard output.
@@ -42,13 +42,9 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
         let mut out = BufWriter::new(out);
         return answers.write(&points, &mut out).and_then(|()| out.flush()).map_err(Failure::Print);
     };
-    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-    let meter = interruption.meter();
-    let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
-        write_file_metered(path, &meter, |out| answers.write(&points, &mut meter.count(out)))
-    });
-    interruption.end_program();
-    written.map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() })
+    terminal.while_writing(path, |meter| {
+        write_file_metered(path, meter, |out| answers.write(&points, &mut meter.count(out)))
+    })
 }
 
 fn read_points(path: &Path, input: &Input) -> Result<PointTable, Failure> {

@@ -1,6 +1,6 @@
 //! `meshbrush path`: build, then find the path of least cost.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -30,7 +30,7 @@ use meshbrush_core::path::{
     CostDensity, PathArea, PathError, PathMesh, PathRequest, Planner, Solution, Weights,
 };
 use meshbrush_io::io::path::PathLengths;
-use meshbrush_io::io::{self as files, DocumentPlane, Interruption, Meter, Provenance};
+use meshbrush_io::io::{self as files, DocumentPlane, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
 use meshbrush_mesh::text::{Grouped, LengthUnit, Number, percent_above, rounded};
 use meshbrush_render::render::path_export::{MeshOfPath, NotOnEarth, PathExport, PathFormat};
@@ -322,14 +322,7 @@ impl PathOutput {
         terminal: &mut Terminal,
     ) -> Result<(), Failure> {
         let Self { path, format } = self;
-        let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-        let meter = interruption.meter();
-        let written = terminal.while_metered(&format!("writing {}", path.display()), &meter, || {
-            export.write(path, *format, over, provenance, &meter)
-        });
-        interruption.end_program();
-        let failed = |error: io::Error| Failure::Write { file: path.clone(), problem: error.to_string() };
-        written.map_err(failed)?;
+        terminal.while_writing(path, |meter| export.write(path, *format, over, provenance, meter))?;
         terminal.say(&format!("wrote {}", path.display()));
         Ok(())
     }

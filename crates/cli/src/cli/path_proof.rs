@@ -1,6 +1,5 @@
 //! The proof of `meshbrush path --within`, and its certificate.
 
-use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,7 +15,7 @@ use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathArea, PathCertificate, PathError, PathMesh, Solution,
 };
 use meshbrush_io::io::certificate::{self, CertifiedPath};
-use meshbrush_io::io::{Interruption, Provenance, write_file_metered};
+use meshbrush_io::io::{Provenance, write_file_metered};
 use meshbrush_mesh::text::percent_above;
 
 /// Returns the statement to prove about a path.
@@ -119,16 +118,9 @@ pub fn write_certificate(
     let proofs = certificate.proofs();
     let (lower, upper) = (certificate.lower(), certificate.upper());
     let path = CertifiedPath { proofs: &proofs, cost, domain, keep_out, clearance, lower, upper };
-    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-    let meter = interruption.meter();
-    let written = terminal.while_metered(&format!("writing {}", file.display()), &meter, || {
-        write_file_metered(file, &meter, |out: &mut dyn Write| {
-            certificate::write_path(out, &path, provenance)
-        })
-    });
-    interruption.end_program();
-    let failed = |error: io::Error| Failure::Write { file: file.to_owned(), problem: error.to_string() };
-    written.map_err(failed)?;
+    terminal.while_writing(file, |meter| {
+        write_file_metered(file, meter, |out| certificate::write_path(out, &path, provenance))
+    })?;
     terminal.say(&format!("wrote {}", file.display()));
     Ok(())
 }

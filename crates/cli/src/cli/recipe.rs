@@ -5,9 +5,9 @@ use std::path::Path;
 use super::args::RecipeArguments;
 use super::failure::Failure;
 use super::terminal::Terminal;
+use meshbrush_io::io::Meter;
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::recipe::{self, RecipeFiles};
-use meshbrush_io::io::{Interruption, Meter};
 
 /// Writes a project as a recipe.
 ///
@@ -20,12 +20,7 @@ pub fn write(typed: &RecipeArguments, terminal: &mut Terminal) -> Result<(), Fai
     let document =
         terminal.while_metered(&reading, &meter, || project::read_metered(&typed.project, &meter))?;
     let files = RecipeFiles::new(&Project::of(&document), &typed.output);
-    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-    let meter = interruption.meter();
-    let writing = format!("writing {}", typed.output.display());
-    let written = terminal.while_metered(&writing, &meter, || files.write(&meter));
-    interruption.end_program();
-    written.map_err(|error| Failure::Write { file: typed.output.clone(), problem: error.to_string() })?;
+    terminal.while_writing(&typed.output, |meter| files.write(meter))?;
     files.paths().for_each(|file| terminal.say(&format!("wrote {}", file.display())));
     files.left_out().iter().for_each(|sentence| terminal.note(sentence));
     Ok(())

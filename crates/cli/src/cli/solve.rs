@@ -75,18 +75,11 @@ fn write_certificate(
     origin: &Provenance,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let failed = |problem: String| Failure::Write { file: file.to_owned(), problem };
     let proof = BoundProof::new(&solved.mesh, problem, &solved.solution, &solved.bound);
     let proof = proof.ok_or_else(|| Failure::Work(format!("{}: {WITHOUT_PROOF}", file.display())))?;
-    let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-    let meter = interruption.meter();
-    let written = terminal.while_metered(&format!("writing {}", file.display()), &meter, || {
-        write_file_metered(file, &meter, |out: &mut dyn Write| {
-            certificate::write_solution(out, &proof, origin)
-        })
-    });
-    interruption.end_program();
-    written.map_err(|error| failed(error.to_string()))?;
+    terminal.while_writing(file, |meter| {
+        write_file_metered(file, meter, |out| certificate::write_solution(out, &proof, origin))
+    })?;
     terminal.say(&format!("wrote {}", file.display()));
     Ok(())
 }

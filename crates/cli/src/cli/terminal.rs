@@ -1,11 +1,13 @@
 //! The messages for a person during and after the work, on standard error.
 
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use meshbrush_io::io::Meter;
+use super::failure::Failure;
+use meshbrush_io::io::{Interruption, Meter};
 use meshbrush_mesh::text::{Bytes, printable};
 
 /// Work shorter than this shows no progress.
@@ -71,6 +73,23 @@ impl Terminal {
     /// progress of the meter.
     pub fn while_metered<T>(&mut self, what: &str, meter: &Meter, work: impl FnOnce() -> T) -> T {
         self.while_shown(|_| format!("{what}, {}", share(meter)), work)
+    }
+
+    /// Writes a file while another thread shows how far that is. A signal leaves nothing of it, and ends the
+    /// program.
+    ///
+    /// # Errors
+    /// Fails when the file cannot be written.
+    pub fn while_writing<T>(
+        &mut self,
+        file: &Path,
+        write: impl FnOnce(&Meter) -> io::Result<T>,
+    ) -> Result<T, Failure> {
+        let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
+        let meter = interruption.meter();
+        let written = self.while_metered(&format!("writing {}", file.display()), &meter, || write(&meter));
+        interruption.end_program();
+        written.map_err(|error| Failure::Write { file: file.to_owned(), problem: error.to_string() })
     }
 
     /// Does work of which nobody knows how far it is, while another thread shows how long it has taken.
